@@ -26,10 +26,6 @@ struct Seen {
     Eigen::VectorXd weighted;  ///< (n) q, 1/mGal.
     Eigen::VectorXd scatter;   ///< (n) M G q; empty: equal to `weighted`.
     double square = 0.0;       ///< q'Gq.
-
-    [[nodiscard]] const Eigen::VectorXd& of_scatter() const {
-        return scatter.size() == 0 ? weighted : scatter;
-    }
 };
 
 /// Residuals of n readings.  Members may be called from several threads at a time.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "corrector/long_record/record_tables.hpp"
 #include "protocol/core/units.hpp"
 #include "protocol/text/message.hpp"
 

@@ -188,8 +188,7 @@ std::vector<Column<model::CorrectedRow>> occupation_columns(const model::SurveyC
             {"scale_correction_mgal", of(&Row::scale_correction), {text::marked("Scale corr.")}});
     if (!first.row.instrument.empty())
         append(columns,
-               {{"instrument", read(&Read::instrument), {text::marked("Instrument"), 0, 'n'}},
-                {"loop", read(&Read::loop), {text::marked("Loop")}}});
+               {{"instrument", read(&Read::instrument)}, {"loop", read(&Read::loop)}});
     if (first.row.start)
         columns.push_back({"used_min",
                            [](const Row& row) { return cell(used_minutes(row)); },

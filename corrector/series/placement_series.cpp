@@ -10,7 +10,6 @@
 #include "corrector/whole_day/day_model.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/core/units.hpp"
-#include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector::series {
 namespace {

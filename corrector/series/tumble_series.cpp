@@ -11,7 +11,6 @@
 #include "protocol/core/units.hpp"
 #include "protocol/linear_algebra/cholesky.hpp"
 #include "protocol/linear_algebra/normal_matrix.hpp"
-#include "protocol/text/aligned_text.hpp"
 #include "protocol/unit/thermal_response.hpp"
 
 namespace a351::corrector::series {

@@ -11,7 +11,8 @@ namespace a351::daemon::config {
 /// replaces the published one, and its warm-up decays to within_mgal at after_power_on_h.
 [[nodiscard]] verdict::Options thresholds_for(const unit::Calibration& unit);
 
-/// Reads [verdict]: each threshold under its own name; absent ones are taken from `defaults`.
+/// Reads [verdict]: the keys have the names of their thresholds; absent ones are taken from
+/// `defaults`.
 /// @throws InputError  a value out of its range, or an unknown key.
 [[nodiscard]] verdict::Options read_verdict(text::TomlTable table,
                                             const verdict::Options& defaults);

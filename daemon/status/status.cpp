@@ -59,10 +59,14 @@ void assess_rate(Status& status) {
     const double departure_ppm = 1e6 * (rate_hz / *status.declared_rate_hz - 1.0);
     if (std::abs(departure_ppm) <= kTolerable_ppm + measured->uncertainty_ppm) return;
     status.rate_advice = text::message(
-        "sample rate: {:.6f} Hz over a day, {:+.2f} ppm from declared_rate_hz (limit 0.2 ppm plus "
+        "sample rate: {:.6f} Hz over a day, {:+.2f} ppm from declared_rate_hz (limit {} ppm plus "
         "its uncertainty); change it only between deployments",
-        rate_hz, departure_ppm);
-    status.warn(status.rate_advice);
+        rate_hz, departure_ppm, kTolerable_ppm);
+    // Without the rate, which varies: the log would say it again each second.
+    status.warn(text::message(
+        "the sample rate differs from declared_rate_hz by more than {} ppm plus its uncertainty; "
+        "the row rate has the measured one; change declared_rate_hz only between deployments",
+        kTolerable_ppm));
 }
 
 /// Returns the sentence about a step of the host's clock, which is complete without the log.
@@ -84,7 +88,6 @@ bool is_shown(UtcTime time, UtcTime now) {
     return time <= now && now < time + std::chrono::hours(1);
 }
 
-
 /// Adds the reason if the sensor had stopped, and was started again.  It does not contain the time: a
 /// loose plug stops a sensor again and again.
 void assess_power(Status& status) {
@@ -100,7 +103,6 @@ void assess_power(Status& status) {
 void assess_clock(Status& status) {
     // A delay of 16 ms is 16 s of simulated time at 1000x, and says nothing about the host's clock.
     if (!status.is_in_real_time) return;
-    constexpr std::chrono::hours kStepShown{1};
     const auto& step = status.clock_step;
     // A clock that was right when it was set back is synchronised.
     const bool is_behind = step && status.now < step->before && !status.is_host_synchronised;
@@ -108,7 +110,7 @@ void assess_clock(Status& status) {
         status.warn(sentence_of(*step) +
                     text::message("; it is behind the recorded data: set it (timedatectl), and "
                                   "correct the times later with a351-correct retime"));
-    } else if (step && status.now - step->after < kStepShown) {
+    } else if (step && is_shown(step->after, status.now)) {
         status.warn(sentence_of(*step) +
                     text::message(
                         "; if it was wrong to set it, correct the times with a351-correct retime"));
@@ -241,9 +243,8 @@ void assess(Status& status) {
     }
     if (status.counters.records_withheld > 0) {
         status.warn(
-            text::message("the host clock was not set: {} records are in the journal only; "
-                          "synchronise the clock, then run a351-correct retime",
-                          status.counters.records_withheld));
+            text::message("the host clock was not set: new records are in the journal only; "
+                          "synchronise the clock, then run a351-correct retime"));
     }
     assess_battery(status);
 }

@@ -48,7 +48,8 @@ struct Verdict {
 
 /// Judges the live series.  From the worst to the best:
 ///
-///     no data      no finite sample for gap_s, or a temperature that does not change for stuck_s
+///     no data      no finite value for gap_s, or a temperature that does not change for stuck_s;
+///                  without samples the page says it earlier (config::stale_after())
 ///     warming up   farther than warm_up_degc from the set point; or not settled yet and on for
 ///                  less than warm_up_h
 ///     disturbed    a knock within quiet_s, a touch within watch_s, shaking within shake_s, or

@@ -5,7 +5,8 @@
 
 namespace a351::daemon::verdict {
 
-/// Thresholds of the verdict: the keys of [verdict], with defaults and sources; see a351d.toml(5).
+/// Thresholds of the verdict, with defaults and sources.  Some are keys of [verdict]: a351d.toml(5),
+/// config::read_verdict().
 struct Options {
     // The oven.
     double operating_degc = 42.5;  ///< Set point, degC: that of the published unit.
@@ -49,7 +50,7 @@ struct Options {
     double noise_floor_mgal = 1.0;  ///< Lowest value taken as usual level: quiet field.
 
     // Data.
-    double gap_s = 10.0;  ///< Time since the last sample: ten times the delay of a slow adapter.
+    double gap_s = 10.0;  ///< Time since the last good value: ten times the delay of a slow adapter.
     /// Time without any change of the temperature, after which it is frozen.
     double stuck_s = believable::kFrozen_s;
 

@@ -4,7 +4,6 @@
 #include <filesystem>
 
 #include "protocol/core/input_error.hpp"
-#include "protocol/text/aligned_text.hpp"
 #include "protocol/text/echo.hpp"
 #include "protocol/wire/device_profile.hpp"
 #include "sim/device/register_file.hpp"

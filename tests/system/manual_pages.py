@@ -186,3 +186,20 @@ for table, text in entries.items():
     demand(f"[{table}]: every key that {page.name} names exists: {sorted(named) or 'none'}", named <= accepted)
     if table == "line":
         demand_same("keys of [line]", page.name, named, accepted)
+
+
+def demand_names(option, command, files):
+    """Demands that the files name each value that a refusal of the option allows."""
+    said = run(*command, check=False).stderr
+    names = re.findall(r"[\w-]+", re.split(r"not in \{|allowed: ", said)[-1].split("; see")[0].replace(", or a file", ""))
+    for file in files:
+        missing = [name for name in names if not re.search(rf"(?<![\w-]){re.escape(name)}(?![\w-])", re.sub(r"\\f[BIRP]", "", text_of(TOP / file)))]
+        demand(f"{file}: names of {option} that it lacks, of {len(names)}: {missing or 'none'}", names and not missing)
+
+
+demand_names("--model", [BIN / "a351-correct", "table", "--sites", "x", "--observations", "y", "--model", "zzz"],
+             ["corrector/command/a351-correct-survey.1", "corrector/command/a351-correct-table.1", "corrector/methods.md", "config/survey.toml"])
+demand_names("--scenario", [BIN / "a351-sim", "survey", "--scenario", "zzz", "--out", "x"], ["sim/command/a351-scenario.toml.5"])
+demand_names("--profile", [BIN / "a351-sim", "device", "--profile", "zzz", "--link", "x"],
+             ["daemon/a351d.toml.5", "config/a351d.toml", "corrector/command/a351-correct-retime.1",
+              *(f"sim/command/a351-sim-{command}.1" for command in ("device", "replay", "survey"))])

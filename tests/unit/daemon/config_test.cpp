@@ -8,6 +8,7 @@
 
 #include "daemon/config/verdict_config.hpp"
 #include "protocol/core/input_error.hpp"
+#include "protocol/text/aligned_text.hpp"
 #include "protocol/wire/shipped_profiles.hpp"
 #include "tests/support/temporary_directory.hpp"
 
@@ -81,8 +82,8 @@ TEST_CASE_METHOD(Fixture, "the profile is a name, or a file beside the configura
         CHECK(config.station.profile.starts_with("mine#"));
     }
     CHECK(refusal(with("A353")) ==
-          "a351d.toml:7: sensor.profile = 'A353': neither a profile nor a file; allowed: A351, "
-          "A352AD10, A370AD10, or a file");
+          "a351d.toml:7: sensor.profile = 'A353': neither a profile nor a file; allowed: " +
+              text::joined(wire::profile_names()) + ", or a file");
     text.replace(text.find(slope_of_16_16), slope_of_16_16.size(), "slope_degc = 0.0");
     directory.write("profiles/mine.toml", text);
     CHECK(

@@ -279,6 +279,12 @@ TEST_CASE("a rate measured over a day is compared with the declared one", "[daem
     assess(status);
     CHECK(status.level == Status::Level::warning);
     CHECK(status.rate_advice.english().find("-0.26 ppm") != std::string::npos);
+    // The reason is the key of the log, so that it has no number that varies.
+    Status later = healthy();
+    later.measured_rate = {Hertz(50.0005), 0.05, std::chrono::hours(24)};
+    later.declared_rate_hz = 50.000613;
+    assess(later);
+    CHECK(later.reasons == status.reasons);
 
     status = healthy();
     SECTION("not if it was measured for less than a day") {
@@ -290,6 +296,16 @@ TEST_CASE("a rate measured over a day is compared with the declared one", "[daem
     SECTION("not without a measured rate") {}
     assess(status);
     CHECK(status.rate_advice.empty());
+}
+
+TEST_CASE("a clock that was not set is said once, however many records wait", "[daemon][assess]") {
+    Status first = healthy(), later = healthy();
+    first.counters.records_withheld = 4;
+    later.counters.records_withheld = 20;
+    assess(first);
+    assess(later);
+    CHECK(first.level == Status::Level::warning);
+    CHECK(first.reasons == later.reasons);
 }
 
 TEST_CASE("the calibration of another unit is a warning", "[daemon][assess]") {

@@ -2,6 +2,8 @@
 
 #include "protocol/core/input_error.hpp"
 #include "protocol/journal/journal_codec.hpp"
+#include "protocol/text/aligned_text.hpp"
+#include "protocol/wire/device_profile.hpp"
 #include "sim/replay/recording.hpp"
 #include "tests/support/file_bytes.hpp"
 #include "tests/support/temporary_directory.hpp"
@@ -69,7 +71,7 @@ TEST_CASE("a file that cannot be replayed is refused with its name and what is a
     auto header = test::journal_header();
     header.profile = "A999";
     CHECK(with(segment_of({header})) ==
-          name + ": profile A999: unknown; allowed: A351, A352AD10, A370AD10");
+          name + ": profile A999: unknown; allowed: " + text::joined(wire::profile_names()));
     for (int field = 0; field < 4; ++field) {
         header = test::journal_header();
         if (field == 0) header.output_rate_hz = 51;
