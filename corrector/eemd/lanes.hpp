@@ -69,6 +69,17 @@ inline Lanes counting_from(double first) {
     return out + first;
 }
 
+/// Returns the last lane of `before` and all lanes of `here` but the last.
+inline Lanes last_and_front(Lanes before, Lanes here) {
+#if defined(__AVX512F__)
+    return __builtin_shufflevector(before, here, 7, 8, 9, 10, 11, 12, 13, 14);
+#elif defined(__AVX2__)
+    return __builtin_shufflevector(before, here, 3, 4, 5, 6);
+#else
+    return __builtin_shufflevector(before, here, 1, 2);
+#endif
+}
+
 /// Returns the bitwise or of all lanes.
 inline std::uint64_t any_of(Words words) {
     std::uint64_t all = 0;

@@ -23,27 +23,22 @@
 
 namespace a351::corrector::eemd {
 
-/// Arrays with one number per knot; b and e may be overwritten after the mean is made.
+/// Arrays with one number per knot.
 ///
 /// The pointers refer to the memory of a MeanEnvelope and are valid as long as it.  No two arrays
 /// overlap.  Element k belongs to knot k; positions are in samples, values Y in the unit of the
 /// curve.
 ///
-/// The arrays h, inverse, slope, pivot and link are the equations of both splines.  The arrays c, b
-/// and e are the cubic from knot k to k + 2, of the envelope to which knot k belongs.
+/// The arrays inverse to link are the equations of both splines.
 ///
 /// Only mean_y, mean_b, mean_c and mean_e are results.  They are set for 1 <= k <= n - 3, where n
 /// is the number of knots; all other elements are undefined.
 struct SplineArrays {
-    double* h;        ///< X_{k+2} - X_k of knots at (X, Y); k + 2 is on the same envelope
-    double* inverse;  ///< 1 / h_k
-    double* slope;    ///< (Y_{k+2} - Y_k) / h_k
-    double* pivot;    ///< elimination, see spline_loops.hpp
+    double* inverse;  ///< 1 / (X_{k+2} - X_k) of knots at (X, Y); k + 2 is on the same envelope
+    double* slope;    ///< (Y_{k+2} - Y_k) / (X_{k+2} - X_k)
     double* link;     ///< elimination, see spline_loops.hpp
     double* c;        ///< half the second derivative at a knot
-    double* b;        ///< S = Y_k + d (b_k + d (c_k + d e_k)), d = t - X_k
-    double* e;        ///< see b
-    double* mean_y;   ///< the same for the mean of both envelopes, from X_k to X_{k+1}, k >= 1
+    double* mean_y;   ///< Y_k + d (b_k + d (c_k + d e_k)), d = t - X_k, from X_k to X_{k+1}, k >= 1
     double* mean_b;
     double* mean_c;
     double* mean_e;
@@ -55,7 +50,7 @@ struct SplineArrays {
 /// It can be moved, but not copied.
 class MeanEnvelope {
 public:
-    /// Allocates twelve arrays, with room for the elements that vector loops read beyond the last
+    /// Allocates eight arrays, with room for the elements that vector loops read beyond the last
     /// knot.
     /// @param most_knots  largest number of knots of a fit, both envelopes together.
     /// @throws std::bad_alloc  if there is not so much memory.
