@@ -131,9 +131,9 @@ struct Result {
 /// - A constant added to the signal appears in the residue only, to rounding (eemd_test.cpp).
 /// - A monotone signal is its own residue without noise, unless FinishRule::always (emd_test.cpp).
 ///
-/// The time is proportional to members x modes x sifts x n.  One sift takes 0.7 to 1.8 ns per
-/// sample on one core of a Zen 5, depending on the instruction set (eemd.md).  Each thread needs
-/// about 17 + modes doubles per sample.  The function has no state: several threads may call it at
+/// The time is proportional to members x modes x sifts x n.  One sift takes 0.95 to 2.2 ns per
+/// sample on one core of a Zen 4, depending on the instruction set (eemd.md).  Each thread needs
+/// about 13 + modes doubles per sample.  The function has no state: several threads may call it at
 /// once.
 ///
 /// Accuracy, and the tests that show it:

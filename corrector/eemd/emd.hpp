@@ -92,7 +92,7 @@ struct SiftOptions {
 /// The result depends on the series and the options only, not on the series before.  Reversed in
 /// time, a series has its modes reversed, to rounding (emd_test.cpp, laws_test.cpp).
 ///
-/// An object may be used by one thread at a time; objects do not share data.  It needs about 16
+/// An object may be used by one thread at a time; objects do not share data.  It needs about 12
 /// doubles per sample.  It can be moved, but not copied.
 class EmdWorkspace {
 public:

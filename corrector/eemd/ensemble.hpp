@@ -72,7 +72,7 @@ struct EnsembleSums {
 /// Members are summed in blocks of fixed size, each in member order.  The blocks are added in block
 /// order, whichever thread finishes first.
 ///
-/// Each thread has its own workspace and sums, made before the first block.  That is about 17 +
+/// Each thread has its own workspace and sums, made before the first block.  That is about 13 +
 /// mode_count doubles per sample, and mode_count + 1 more with pairs.
 ///
 /// The time is proportional to members x modes x sifts x samples.  Calls from several threads at

@@ -139,7 +139,7 @@ struct RepresentativeValue : RecordSummary {
 /// interval.  A record without temperature is accepted.
 ///
 /// The function is pure: the same record, options and seed give the same bits, in any thread.  The
-/// decomposition of 450 samples takes 2 to 3 ms on one core of a Zen 5 (eemd.md).
+/// decomposition of 450 samples takes 3 ms on one core of a Zen 4 (eemd.md).
 ///
 /// Accuracy, all shown by tests/unit/reading/representative_value_test.cpp:
 /// - A constant without noise returns within 1e-6 mGal, a ramp with its value at mid-interval.
