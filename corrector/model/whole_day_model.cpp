@@ -259,6 +259,7 @@ public:
         : problem_(problem),
           choice_(choice),
           priors_(day_priors_of(problem.options)),
+          covariance_(problem.day->bins),
           nearby_(problem.nearby == nullptr ? std::nullopt : std::optional(*problem.nearby)) {
         if (!problem_.temperature)
             problem_.temperature = std::make_shared<const whole_day::LaggedMeans>(*problem.day);
@@ -276,7 +277,8 @@ public:
         }
         const AmendedSurvey with = amended(problem_.rows, problem_.options, known);
         if (!of_quiet_ || is_refused(with)) return nullptr;
-        return adjustment::effects_on(whole_day::set_up_residuals(survey_of(with), *of_quiet_));
+        return adjustment::effects_on(
+            whole_day::set_up_residuals(survey_of(with), *of_quiet_, covariance_));
     }
 
 private:
@@ -298,6 +300,7 @@ private:
     SurveyProblem problem_;
     RowChoice choice_;
     whole_day::DayPriors priors_;
+    whole_day::NoiseCovariance covariance_;
     std::optional<whole_day::SurveyPoint> nearby_;
     std::optional<whole_day::DayFit> of_quiet_;
     std::vector<adjustment::Alternative> last_quiet_;

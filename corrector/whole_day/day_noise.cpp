@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "corrector/whole_day/column_filter.hpp"
+
 namespace a351::corrector::whole_day {
 namespace {
 
@@ -95,94 +97,92 @@ double Whitening::whiten_states(const DayNoise& noise, Eigen::MatrixXd& columns)
         noise.flicker_mgal * noise.flicker_mgal / static_cast<double>(kProcesses);
     const double placement = noise.placement_mgal * noise.placement_mgal;
 
-    Eigen::Matrix<double, kStates, kStates> covariance =
-        Eigen::Matrix<double, kStates, kStates>::Zero();
     State variances = State::Constant(flicker_part);
     if constexpr (kTwoFaces) {
         variances.template head<kProcesses>() *= 1.0 - noise.flicker_on_scale;
         variances.template segment<kProcesses>(kOnScale) *= noise.flicker_on_scale;
         variances(kTurn) = 0.0;
     }
-    covariance.diagonal() = variances;
-    Eigen::Matrix<double, kStates, Eigen::Dynamic> state(kStates, columns.cols());
-    state.setZero();
-    Eigen::MatrixXd values = columns.transpose();  // those of a bin are together: half the time
-    // In front of its first value a column stays 0: a gravity begins with its first set-up.
-    std::vector<Index> begin(static_cast<std::size_t>(columns.cols()), columns.rows());
-    for (Index column = 0; column < columns.cols(); ++column)
-        for (Index row = columns.rows() - 1; row >= 0; --row)
-            if (columns(row, column) != 0.0) begin[static_cast<std::size_t>(column)] = row;
+    const FilterBin<kStates> filter = fastest_filter<kStates>();
+    FilteredColumns<kStates> filtered(columns);
+    FilterStep<kStates> step;
+    step.covariance = variances.asDiagonal();
     double log_determinant = 0.0;
     for (Index row = 0; row < std::ssize(bins_); ++row) {
         const Bin& bin = bins_[static_cast<std::size_t>(row)];
-        State keep;
-        keep.template head<kProcesses + 1>() << bin.keep, bin.is_new_set_up ? 0.0 : 1.0;
-        if constexpr (kTwoFaces) keep.template tail<kProcesses + 1>() << bin.keep, bin.turn_keep;
         // Prediction: x = K x, P = K P K + Q.  A new set-up has a new placement.
-        covariance = covariance.cwiseProduct(keep * keep.transpose());
-        for (Index k = 0; k < kProcesses; ++k)
-            covariance(k, k) += variances(k) * (1.0 - keep(k) * keep(k));
+        step.keep.template head<kProcesses>() = bin.keep;
+        step.keep(kProcesses) = bin.is_new_set_up ? 0.0 : 1.0;
         if constexpr (kTwoFaces) {
-            for (Index k = kOnScale; k < kTurn; ++k)
-                covariance(k, k) += variances(k) * (1.0 - keep(k) * keep(k));
-            covariance(kTurn, kTurn) += bin.turn_variance;
+            step.keep.template segment<kProcesses>(kOnScale) = bin.keep;
+            step.keep(kTurn) = bin.turn_keep;
         }
-        if (bin.is_new_set_up) covariance(kProcesses, kProcesses) = placement;
+        step.added = variances.array() * (1.0 - step.keep.array().square());
+        step.added(kProcesses) = bin.is_new_set_up ? placement : 0.0;
+        if constexpr (kTwoFaces) step.added(kTurn) = bin.turn_variance;
 
         // Measurement: h times the states, and noise.  A mean varies less than h^2, so the noise may
         // have a negative variance; that of the reading is positive.
-        State h;
-        h.template head<kProcesses + 1>() << bin.factor, 1.0;
-        if constexpr (kTwoFaces)
-            h.template tail<kProcesses + 1>() << bin.face * bin.factor, bin.turn_factor;
-        const State gain = covariance * h;
-        const double variance =
-            gain.dot(h) + flicker_part * bin.within + white_variance(noise, bin.samples);
-        covariance -= gain * gain.transpose() / variance;
-        // Innovations divided by their standard deviation are white.
-        const State change = gain / variance;
-        const double scale = 1.0 / std::sqrt(variance);
-        for (Index column = 0; column < values.rows(); ++column) {
-            if (row < begin[static_cast<std::size_t>(column)]) continue;
-            State x = keep.cwiseProduct(state.col(column));
-            const double innovation = values(column, row) - h.dot(x);
-            x += innovation * change;
-            state.col(column) = x;
-            values(column, row) = innovation * scale;
+        step.measured.template head<kProcesses>() = bin.factor;
+        step.measured(kProcesses) = 1.0;
+        if constexpr (kTwoFaces) {
+            step.measured.template segment<kProcesses>(kOnScale) = bin.face * bin.factor;
+            step.measured(kTurn) = bin.turn_factor;
         }
-        log_determinant += std::log(variance);
+        step.of_mean = flicker_part * bin.within;
+        step.white = white_variance(noise, bin.samples);
+        filter(step, row, filtered);
+        log_determinant += std::log(step.variance);
     }
-    columns = values.transpose();
+    // Innovations divided by their standard deviation are white.
+    columns = filtered.values.topRows(columns.cols()).transpose();
     return log_determinant;
 }
 
-Eigen::MatrixXd noise_covariance(const std::vector<reading::DayBin>& bins, const DayNoise& noise) {
+NoiseCovariance::NoiseCovariance(const std::vector<reading::DayBin>& bins)
+    : bins_(bins), flicker_(std::ssize(bins), std::ssize(bins)), turns_(std::ssize(bins), 0) {
     std::vector<BinMean> means;
     for (const reading::DayBin& bin : bins) means.push_back(mean_over(bin));
-    const auto turn = [&](std::size_t i, std::size_t at) {
+    for (std::size_t i = 0; i < bins.size(); ++i)
+        for (std::size_t k = 0; k <= i; ++k)
+            flicker_(static_cast<Index>(i), static_cast<Index>(k)) =
+                i == k ? means[i].variance.sum()
+                       : (means[i].factor * means[k].factor *
+                          decrease(seconds_between(bins[k].time, bins[i].time)))
+                             .sum();
+    for (std::size_t at = 1; at < bins.size(); ++at) {
+        if (bins[at].face == bins[at - 1].face) continue;
         const UtcTime time = bins[at - 1].time + from_seconds(0.5 * means[at - 1].length_s);
-        return kTurn_mgal * turn_factor(means[i]) *
-               std::exp(-seconds_between(time, bins[i].time) / kTurn_s);
-    };
+        turns_.conservativeResize(Eigen::NoChange, turns_.cols() + 1);
+        auto turn = turns_.rightCols<1>();
+        turn.setZero();
+        for (std::size_t i = at; i < bins.size(); ++i)
+            turn(static_cast<Index>(i)) = kTurn_mgal * turn_factor(means[i]) *
+                                          std::exp(-seconds_between(time, bins[i].time) / kTurn_s);
+    }
+}
+
+Eigen::MatrixXd NoiseCovariance::at(const DayNoise& noise) const {
     const double flicker_part =
         noise.flicker_mgal * noise.flicker_mgal / static_cast<double>(kProcesses);
-    Eigen::MatrixXd covariance(std::ssize(bins), std::ssize(bins));
-    for (std::size_t i = 0; i < bins.size(); ++i)
-        for (std::size_t k = 0; k <= i; ++k) {
-            double sum =
-                i == k ? flicker_part * means[i].variance.sum() +
-                             white_variance(noise, static_cast<double>(bins[i].times.size()))
-                       : flicker_part * (means[i].factor * means[k].factor *
-                                         decrease(seconds_between(bins[k].time, bins[i].time)))
-                                            .sum();
-            if (bins[i].face != bins[k].face) sum *= 1.0 - 2.0 * noise.flicker_on_scale;
-            for (std::size_t at = 1; at <= k; ++at)
-                if (bins[at].face != bins[at - 1].face) sum += turn(i, at) * turn(k, at);
-            if (bins[i].set_up == bins[k].set_up) sum += std::pow(noise.placement_mgal, 2);
-            covariance(static_cast<Index>(i), static_cast<Index>(k)) = sum;
-            covariance(static_cast<Index>(k), static_cast<Index>(i)) = sum;
+    Eigen::MatrixXd covariance(flicker_.rows(), flicker_.cols());
+    for (Index i = 0; i < covariance.rows(); ++i)
+        for (Index k = 0; k <= i; ++k) {
+            const reading::DayBin& a = bins_[static_cast<std::size_t>(i)];
+            const reading::DayBin& b = bins_[static_cast<std::size_t>(k)];
+            double sum = flicker_part * flicker_(i, k);
+            if (i == k) sum += white_variance(noise, static_cast<double>(a.times.size()));
+            if (a.face != b.face) sum *= 1.0 - 2.0 * noise.flicker_on_scale;
+            for (Index turn = 0; turn < turns_.cols(); ++turn)
+                sum += turns_(i, turn) * turns_(k, turn);
+            if (a.set_up == b.set_up) sum += std::pow(noise.placement_mgal, 2);
+            covariance(i, k) = covariance(k, i) = sum;
         }
     return covariance;
+}
+
+Eigen::MatrixXd noise_covariance(const std::vector<reading::DayBin>& bins, const DayNoise& noise) {
+    return NoiseCovariance(bins).at(noise);
 }
 
 }  // namespace a351::corrector::whole_day

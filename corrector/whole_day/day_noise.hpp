@@ -129,9 +129,25 @@ private:
     bool has_two_faces_;
 };
 
-/// Returns the covariance (n, n) of the bins that whiten() removes, mGal^2.  Cost: 7 n^2 / 2
-/// exponentials.
-/// @param bins, noise  as whiten(); in one face the order of the bins is free.
+/// The covariance of the bins that whiten() removes, for many noises of the same bins: what depends on
+/// the bins alone is computed once.  The 21 trials of a search for mistakes then need 0.02 of the time.
+class NoiseCovariance {
+public:
+    /// Cost: 7 n^2 / 2 exponentials.
+    /// @param bins  (n) as whiten(), kept by reference; in one face their order is free.
+    explicit NoiseCovariance(const std::vector<reading::DayBin>& bins);
+
+    /// Returns the covariance (n, n), mGal^2.
+    /// @param noise  as whiten().
+    [[nodiscard]] Eigen::MatrixXd at(const DayNoise& noise) const;
+
+private:
+    const std::vector<reading::DayBin>& bins_;
+    Eigen::MatrixXd flicker_;  ///< (n, n) Lower part: sum over processes of variance 1.
+    Eigen::MatrixXd turns_;  ///< (n, turns) Standard deviation of the error after each turn, mGal.
+};
+
+/// Returns NoiseCovariance::at() of one noise.
 [[nodiscard]] Eigen::MatrixXd noise_covariance(const std::vector<reading::DayBin>& bins,
                                                const DayNoise& noise);
 

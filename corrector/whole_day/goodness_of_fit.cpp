@@ -76,7 +76,8 @@ Statistic worst_quarter(std::vector<Direction> directions, const Residuals& r) {
 std::vector<FitTest> goodness_of_fit(const DaySurvey& survey, const DayFit& fit) {
     const DayRegression problem(survey);
     const Eigen::MatrixXd mean = averaging(*survey.record, survey.stations.size());
-    const adjustment::DenseResiduals residuals = set_up_residuals(survey, fit);
+    const adjustment::DenseResiduals residuals =
+        set_up_residuals(survey, fit, NoiseCovariance(survey.record->bins));
     const Index set_ups = mean.rows();
     if (set_ups - residuals.unknown.cols() < kFewestFitDof) return {};
 

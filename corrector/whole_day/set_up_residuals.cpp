@@ -16,7 +16,8 @@ Eigen::MatrixXd averaging(const reading::DayRecord& record, std::size_t set_ups)
     return mean.array().colwise() / mean.rowwise().sum().array();
 }
 
-adjustment::DenseResiduals set_up_residuals(const DaySurvey& survey, const DayFit& fit) {
+adjustment::DenseResiduals set_up_residuals(const DaySurvey& survey, const DayFit& fit,
+                                            const NoiseCovariance& covariance_of_bins) {
     const DayRegression problem(survey);
     const reading::DayRecord& record = *survey.record;
     const Eigen::MatrixXd mean = averaging(record, survey.stations.size());
@@ -28,7 +29,7 @@ adjustment::DenseResiduals set_up_residuals(const DaySurvey& survey, const DayFi
         values(problem.on_scale_begin() + static_cast<Index>(k)) = fit.on_scale[k].value;
     const Eigen::MatrixXd lags = mean * problem.lag_columns(fit.expected, values);
     const Eigen::MatrixXd noise =
-        mean * noise_covariance(record.bins, fit.expected_noise) * mean.transpose();
+        mean * covariance_of_bins.at(fit.expected_noise) * mean.transpose();
     Eigen::MatrixXd covariance = noise + lags * lags.transpose();
     std::vector<Index> unknown;
     for (Index k = 0; k < problem.estimated(); ++k) {

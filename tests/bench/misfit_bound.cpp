@@ -151,7 +151,8 @@ int main(int argc, char** argv) {
     const auto of_day = corrector::model::day_survey({read.rows, options, &*read.day}, choice,
                                                      corrector::model::day_priors_of(options));
     const auto fit = corrector::whole_day::adjust_day(of_day).value().fit();
-    const Residuals residuals = corrector::whole_day::set_up_residuals(of_day, fit);
+    const Residuals residuals = corrector::whole_day::set_up_residuals(
+        of_day, fit, corrector::whole_day::NoiseCovariance(of_day.record->bins));
     const double placement_mgal = fit.expected_noise.placement_mgal;
     const double size = std::atof(argv[4]);
     const Misfit misfit =

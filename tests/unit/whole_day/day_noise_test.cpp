@@ -1,3 +1,4 @@
+#include "corrector/whole_day/column_filter.hpp"
 #include "corrector/whole_day/day_noise.hpp"
 
 #include <Eigen/Cholesky>
@@ -32,6 +33,26 @@ TEST_CASE("the filter whitens like the dense covariance", "[day]") {
     CHECK((white.transpose() * white - expected).norm() < 1e-9 * expected.norm());
     CHECK(log_determinant ==
           Approx(2.0 * dense.matrixLLT().diagonal().array().log().sum()).epsilon(1e-12));
+}
+
+TEST_CASE("the filter has the same bits with any number of lanes", "[day]") {
+    Eigen::MatrixXd columns = Eigen::MatrixXd::Random(20, 6);
+    columns.topRightCorner(10, 2).setZero();
+    const auto filtered = [&columns](FilterBin<8> filter) {
+        FilteredColumns<8> result(columns);
+        FilterStep<8> step;
+        step.covariance.setIdentity();
+        step.of_mean = -0.1;
+        step.white = 0.3;
+        for (Eigen::Index row = 0; row < columns.rows(); ++row) {
+            step.keep.setLinSpaced(0.1, 0.99);
+            step.added = 1.0 - step.keep.array().square();
+            step.measured.setConstant(1.0 + 0.01 * static_cast<double>(row));
+            filter(step, row, result);
+        }
+        return result.values;
+    };
+    CHECK(filtered(fastest_filter<8>()) == filtered(with_two_lanes<8>));
 }
 
 TEST_CASE("means of simulated flicker have the covariance of the bins", "[day]") {
