@@ -37,14 +37,17 @@ Eigen::VectorXd BinMeans::of(const std::vector<double>& values) const {
     return means;
 }
 
-Eigen::VectorXd LaggedMeans::behind(double lag_s) const {
+std::array<Eigen::VectorXd, 2> LaggedMeans::behind(const std::array<double, 2>& lags_s) const {
     {
         const std::scoped_lock lock(mutex_);
-        if (const auto kept = kept_.find(lag_s); kept != kept_.end()) return kept->second;
+        const auto first = kept_.find(lags_s[0]), second = kept_.find(lags_s[1]);
+        if (first != kept_.end() && second != kept_.end()) return {first->second, second->second};
     }
-    Eigen::VectorXd means = means_.of(unit::lagged(record_.temperature.series, lag_s));
+    const auto series = unit::lagged(record_.temperature.series, lags_s);
+    std::array<Eigen::VectorXd, 2> means{means_.of(series[0]), means_.of(series[1])};
     const std::scoped_lock lock(mutex_);
-    return kept_.emplace(lag_s, std::move(means)).first->second;
+    for (std::size_t k = 0; k < means.size(); ++k) kept_.emplace(lags_s.at(k), means.at(k));
+    return means;
 }
 
 }  // namespace a351::corrector::whole_day

@@ -8,9 +8,10 @@
 ///
 ///     const LaggedMeans temperature(day);
 ///     const Eigen::VectorXd degc = temperature.means().of(day.temperature.series.values());
-///     const Eigen::VectorXd slow_degc = temperature.behind(2700.0);
+///     const auto [fast_degc, slow_degc] = temperature.behind({43.0, 2700.0});
 
 #include <Eigen/Core>
+#include <array>
 #include <map>
 #include <mutex>
 #include <vector>
@@ -64,9 +65,9 @@ public:
         : record_(record), means_(record.temperature.series, record.bins) {}
 
     [[nodiscard]] const BinMeans& means() const { return means_; }
-    /// Returns the means (bins), degC.
-    /// @param lag_s  as unit::lagged().
-    [[nodiscard]] Eigen::VectorXd behind(double lag_s) const;
+    /// Returns the means (bins) behind each of two lags, degC.
+    /// @param lags_s  as unit::lagged().
+    [[nodiscard]] std::array<Eigen::VectorXd, 2> behind(const std::array<double, 2>& lags_s) const;
 
 private:
     const reading::DayRecord& record_;

@@ -191,13 +191,13 @@ Eigen::VectorXd DayRegression::on_scale_sd() const {
     return deviations;
 }
 
-Eigen::VectorXd DayRegression::slow_column(double lag_s) const {
-    return temperature_->behind(lag_s).array() - kReferenceTemperature_degc;
-}
-
-Eigen::VectorXd DayRegression::fast_column(double lag_s) const {
-    return (fixed_.col(static_cast<Index>(DayTerm::level)) - slow_column(lag_s)) *
-           (kSecondsPerHour / lag_s);
+std::array<Eigen::VectorXd, 2> DayRegression::lag_effects(const Point& u) const {
+    const double fast_lag_s = lag_s(u, kFastLag);
+    auto columns = temperature_->behind({fast_lag_s, lag_s(u, kSlowLag)});
+    for (Eigen::VectorXd& column : columns) column.array() -= kReferenceTemperature_degc;
+    columns[0] = (fixed_.col(static_cast<Index>(DayTerm::level)) - columns[0]) *
+                 (kSecondsPerHour / fast_lag_s);
+    return columns;
 }
 
 Eigen::MatrixXd DayRegression::outer_columns(const Point& u) const {
@@ -209,8 +209,9 @@ Eigen::MatrixXd DayRegression::outer_columns(const Point& u) const {
 
 Eigen::MatrixXd DayRegression::design(const Point& u) const {
     Eigen::MatrixXd columns = fixed_;
-    columns.col(static_cast<Index>(DayTerm::fast)) = fast_column(lag_s(u, kFastLag));
-    columns.col(static_cast<Index>(DayTerm::slow)) = slow_column(lag_s(u, kSlowLag));
+    const auto [fast, slow] = lag_effects(u);
+    columns.col(static_cast<Index>(DayTerm::fast)) = fast;
+    columns.col(static_cast<Index>(DayTerm::slow)) = slow;
     for (std::size_t k = 0; k < states_.size(); ++k)
         for (const DayHyper lag : {kFastLag, kSlowLag}) {
             auto column =
@@ -330,8 +331,8 @@ Eigen::MatrixXd DayRegression::lag_columns(const Point& u, const Eigen::VectorXd
         return of;
     };
     const auto lagged_effects = [&](const Point& at) -> Eigen::VectorXd {
-        return slope(DayTerm::fast).cwiseProduct(fast_column(lag_s(at, kFastLag))) +
-               slope(DayTerm::slow).cwiseProduct(slow_column(lag_s(at, kSlowLag)));
+        const auto [fast, slow] = lag_effects(at);
+        return slope(DayTerm::fast).cwiseProduct(fast) + slope(DayTerm::slow).cwiseProduct(slow);
     };
     Eigen::MatrixXd columns = design(u) * unscaling(u).rightCols(kLags);
     for (const DayHyper lag : {kFastLag, kSlowLag}) {

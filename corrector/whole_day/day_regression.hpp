@@ -177,8 +177,8 @@ private:
     void set_readings(const std::vector<double>& rough_mgal);
     void set_fixed_columns();
     void set_states();
-    [[nodiscard]] Eigen::VectorXd fast_column(double lag_s) const;
-    [[nodiscard]] Eigen::VectorXd slow_column(double lag_s) const;
+    /// Returns the columns (n) of the fast and of the slow rate.
+    [[nodiscard]] std::array<Eigen::VectorXd, 2> lag_effects(const Point& u) const;
     /// Returns the deviations of the parts that act on the scale, by their priors, if the terms and the
     /// share are known.
     [[nodiscard]] Eigen::VectorXd on_scale_sd() const;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "protocol/unit/calibration.hpp"
 
@@ -71,27 +72,46 @@ ThermalResponse record_priors() {
     return priors;
 }
 
-std::vector<double> lagged(const TimeSeries<DegC>& series, double tau_s) {
-    const double h = 1.0 / (series.rate().value() * tau_s), keep = std::exp(-h);
-    const std::array<double, 4> w = powers_after_lag(h);
+std::array<std::vector<double>, 2> lagged(const TimeSeries<DegC>& series,
+                                          const std::array<double, 2>& tau_s) {
+    using Pair [[gnu::vector_size(2 * sizeof(double))]] = double;
+    Pair keep = {}, w[4] = {};
+    for (std::size_t lag = 0; lag < tau_s.size(); ++lag) {
+        const double h = 1.0 / (series.rate().value() * tau_s.at(lag));
+        const std::array<double, 4> powers = powers_after_lag(h);
+        keep[lag] = std::exp(-h);
+        for (std::size_t j = 0; j < powers.size(); ++j) w[j][lag] = powers.at(j);
+    }
     const std::vector<double>& x = series.values();
-    std::vector<double> y = x;
-    for (std::size_t i = 1; i < x.size(); ++i) {
+    std::array<std::vector<double>, 2> behind{std::vector<double>(x.size()),
+                                              std::vector<double>(x.size())};
+    Pair y = {};
+    for (std::size_t i = 0; i < x.size(); ++i) {
         // y_i = k y_(i-1) + w0 x_(i-1) + w1 a + w2 b + w3 c, where the temperature in the step is
         // x_(i-1) + a s + b s^2 + c s^3
-        const double from = x[i - 1], to = x[i];
-        double a = to - from, b = 0.0, c = 0.0;
-        if (i > 1 && i + 1 < x.size()) {  // Lagrange's cubic through four samples
-            const double before = x[i - 2], after = x[i + 1];
-            b = 0.5 * (before + to) - from;
-            c = (after - before) / 6.0 + 0.5 * (from - to);
-            a -= b + c;
+        if (i == 0) {
+            y += x[0];
+        } else {
+            const double from = x[i - 1], to = x[i];
+            double a = to - from, b = 0.0, c = 0.0;
+            if (i > 1 && i + 1 < x.size()) {  // Lagrange's cubic through four samples
+                const double before = x[i - 2], after = x[i + 1];
+                b = 0.5 * (before + to) - from;
+                c = (after - before) / 6.0 + 0.5 * (from - to);
+                a -= b + c;
+            }
+            // The input is summed first: only a product and a sum have to wait for the step before.
+            const Pair input = w[0] * from + w[1] * a + w[2] * b + w[3] * c;
+            y = keep * y + input;
         }
-        // The input is summed first: only a product and a sum have to wait for the step before.
-        const double input = w[0] * from + w[1] * a + w[2] * b + w[3] * c;
-        y[i] = keep * y[i - 1] + input;
+        behind[0][i] = y[0];
+        behind[1][i] = y[1];
     }
-    return y;
+    return behind;
+}
+
+std::vector<double> lagged(const TimeSeries<DegC>& series, double tau_s) {
+    return std::move(lagged(series, std::array{tau_s, tau_s})[0]);
 }
 
 std::vector<double> fast_rate_degc_per_h(const TimeSeries<DegC>& series, double fast_lag_s) {
@@ -103,8 +123,7 @@ std::vector<double> fast_rate_degc_per_h(const TimeSeries<DegC>& series, double 
 
 std::vector<double> ThermalEffect::of(const TimeSeries<DegC>& series, double zero_degc) const {
     const std::vector<double>& t = series.values();
-    const std::vector<double> behind_fast = lagged(series, fast_lag_s),
-                              behind_slow = lagged(series, slow_lag_s);
+    const auto [behind_fast, behind_slow] = lagged(series, std::array{fast_lag_s, slow_lag_s});
     std::vector<double> effect(t.size());
     // The fast rate is written out, because the order of rounding decides the last bits of results.
     for (std::size_t i = 0; i < t.size(); ++i)
