@@ -54,6 +54,12 @@ public:
     /// those of `quiet` put right; null if there are none.
     [[nodiscard]] virtual std::shared_ptr<const Residuals> residuals(
         const std::vector<Alternative>& known, const std::vector<Alternative>& quiet) = 0;
+
+    /// Says that residuals() will be asked for at these `quiet` alternatives, so that surveys whose
+    /// noises do not depend on each other can find them at the same time.  No residuals change.
+    virtual void expect(const std::vector<std::vector<Alternative>>& quiets) {
+        static_cast<void>(quiets);
+    }
 };
 
 /// Returns the trials of a survey with white noise.

@@ -34,8 +34,13 @@ std::optional<Mistake> next_mistake(const std::vector<SearchedReading>& readings
     if (!residuals) return std::nullopt;
     const Trial noisy(std::move(residuals), readings, known);
     if (!noisy.is_possible() || !(is_known_sure || noisy.allows_trial())) return std::nullopt;
+    const std::vector<Scored> candidates = noisy.best(kTried);
+    std::vector<std::vector<adjustment::Alternative>> quiets;
+    for (const Scored& candidate : candidates)
+        quiets.emplace_back(known.begin(), known.end()).push_back(candidate.mistake);
+    trials.expect(quiets);
     std::optional<Scored> best;
-    for (const Scored& candidate : noisy.best(kTried)) {
+    for (const Scored& candidate : candidates) {
         std::vector<Mistake> quiet = known;
         quiet.push_back(candidate.mistake);
         residuals = residuals_of(trials, known, quiet);

@@ -114,6 +114,9 @@ public:
         ++done_;
         return trials_->residuals(known, quiet);
     }
+    void expect(const std::vector<std::vector<adjustment::Alternative>>& quiets) override {
+        trials_->expect(quiets);
+    }
 
 private:
     std::unique_ptr<adjustment::Trials> trials_;

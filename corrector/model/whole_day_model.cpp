@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
+#include "corrector/archive_series/on_all_cores.hpp"
 #include "corrector/model/adjusted_day.hpp"
 #include "corrector/model/amended_survey.hpp"
 #include "corrector/model/calibration_use.hpp"
@@ -268,20 +270,40 @@ public:
     [[nodiscard]] std::shared_ptr<const adjustment::Residuals> residuals(
         const std::vector<adjustment::Alternative>& known,
         const std::vector<adjustment::Alternative>& quiet) override {
-        const auto is_same = [](const auto& a, const auto& b) { return a.is_same(b); };
-        if (!of_quiet_ || !std::ranges::equal(quiet, last_quiet_, is_same)) {
-            const AmendedSurvey without = amended(problem_.rows, problem_.options, quiet);
-            of_quiet_ = fit_of(without);
-            last_quiet_ = quiet;
-            if (!nearby_ && of_quiet_) nearby_ = of_quiet_->point;
-        }
+        if (known_fit(quiet) == nullptr) fits_.push_back({quiet, fit_of(quiet)});
+        const std::optional<whole_day::DayFit>& of_quiet = known_fit(quiet)->fit;
+        if (!nearby_ && of_quiet) nearby_ = of_quiet->point;
         const AmendedSurvey with = amended(problem_.rows, problem_.options, known);
-        if (!of_quiet_ || is_refused(with)) return nullptr;
+        if (!of_quiet || is_refused(with)) return nullptr;
         return adjustment::effects_on(
-            whole_day::set_up_residuals(survey_of(with), *of_quiet_, covariance_));
+            whole_day::set_up_residuals(survey_of(with), *of_quiet, covariance_));
+    }
+
+    void expect(const std::vector<std::vector<adjustment::Alternative>>& quiets) override {
+        if (!nearby_) return;  // the first fit is the start of the others
+        std::vector<QuietFit> fits;
+        for (const auto& quiet : quiets)
+            if (known_fit(quiet) == nullptr) fits.push_back({quiet, {}});
+        archive_series::on_all_cores(fits.size(),
+                                     [&](std::size_t k) { fits[k].fit = fit_of(fits[k].quiet); });
+        std::ranges::move(fits, std::back_inserter(fits_));
     }
 
 private:
+    /// A fit with some alternatives put right; absent if such a survey is refused.
+    struct QuietFit {
+        std::vector<adjustment::Alternative> quiet;
+        std::optional<whole_day::DayFit> fit;
+    };
+
+    [[nodiscard]] const QuietFit* known_fit(
+        const std::vector<adjustment::Alternative>& quiet) const {
+        const auto is_same = [](const auto& a, const auto& b) { return a.is_same(b); };
+        const auto found = std::ranges::find_if(fits_, [&](const QuietFit& one) {
+            return std::ranges::equal(quiet, one.quiet, is_same);
+        });
+        return found == fits_.end() ? nullptr : &*found;
+    }
     [[nodiscard]] bool is_refused(const AmendedSurvey& survey) const {
         return refusal_of({survey.rows, survey.options, problem_.day}, survey.choice).has_value();
     }
@@ -290,7 +312,9 @@ private:
             {survey.rows, survey.options, problem_.day, nullptr, problem_.temperature},
             survey.choice, priors_);
     }
-    [[nodiscard]] std::optional<whole_day::DayFit> fit_of(const AmendedSurvey& survey) const {
+    [[nodiscard]] std::optional<whole_day::DayFit> fit_of(
+        const std::vector<adjustment::Alternative>& quiet) const {
+        const AmendedSurvey survey = amended(problem_.rows, problem_.options, quiet);
         if (is_refused(survey)) return std::nullopt;
         return whole_day::adjust_day(survey_of(survey), nearby_ ? &*nearby_ : nullptr)
             .value()
@@ -302,8 +326,7 @@ private:
     whole_day::DayPriors priors_;
     whole_day::NoiseCovariance covariance_;
     std::optional<whole_day::SurveyPoint> nearby_;
-    std::optional<whole_day::DayFit> of_quiet_;
-    std::vector<adjustment::Alternative> last_quiet_;
+    std::vector<QuietFit> fits_;  ///< The size of an alternative has no effect on its fit.
 };
 
 std::unique_ptr<adjustment::Trials> day_trials(const SurveyProblem& problem,
