@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 
 #include "corrector/archive_series/sample_grid.hpp"
@@ -210,16 +211,25 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
     else
         mounting = put_vertical_last(samples, epoch, windows, metadata);
 
+    // The pieces of the whole day are first, because they are the longest.  One after the other, a day with
+    // a linear model needs 1.05 times as long on two cores.
     std::vector<AveragedSetUp> set_ups(windows.size());
-    archive_series::on_all_cores(
-        windows.size(),
-        [&](std::size_t i) {
+    std::optional<DayTemperature> temperature;
+    std::vector<std::function<void()>> pieces{
+        [&] { temperature = temperature_of_day(samples, epoch, windows); },
+        [&] {
+            result.temperature_course = archive_series::temperature_course(
+                samples[kTemperature].segments, epoch.channels[kTemperature]);
+        }};
+    if (!source.is_so_far) pieces.emplace_back([&] { result.inputs = inputs_of(source, stays); });
+    for (std::size_t i = 0; i < windows.size(); ++i)
+        pieces.emplace_back([&, i] {
             set_ups[i] = average(samples, epoch, windows, i, source.averaging, source.is_tumbled);
-        },
-        progress);
+        });
+    archive_series::on_all_cores(
+        pieces.size(), [&](std::size_t k) { pieces[k](); }, progress);
 
-    if (auto temperature = temperature_of_day(samples, epoch, windows))
-        result.day = DayRecord{std::move(*temperature), {}};
+    if (temperature) result.day = DayRecord{std::move(*temperature), {}};
     result.left_out = list.left_out;
     result.warnings = list.warnings;
     if (result.day) add_outer(*result.day, samples, epoch, windows, result.warnings);
@@ -272,8 +282,6 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
     std::ranges::stable_sort(result.left_out, {}, &LeftOut::start);
     for (text::Message& warning : position_warnings(result.rows, sites))
         result.warnings.push_back(std::move(warning));
-    result.temperature_course = archive_series::temperature_course(samples[kTemperature].segments,
-                                                                   epoch.channels[kTemperature]);
     std::erase_if(result.temperature_course, [](const archive_series::MinuteTemperature& minute) {
         return !is_temperature_believable(minute.mean);
     });
@@ -282,7 +290,6 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
     for (Finding& finding :
          start_up_findings(events, epoch.serial_number, windows.front().start, windows.back().end))
         result.findings.push_back(std::move(finding));
-    if (!source.is_so_far) result.inputs = inputs_of(source, stays);
     result.running_key = list.running_key;
     if (!samples[kVertical].segments.empty()) result.data_end = last_sample(samples[kVertical]);
     if (source.is_so_far)
