@@ -281,6 +281,8 @@ public:
 
     void expect(const std::vector<std::vector<adjustment::Alternative>>& quiets) override {
         if (!nearby_) return;  // the first fit is the start of the others
+        // The shortest of 15 days of auto needs 0.91 of the time on two cores; on busy cores nothing is
+        // gained.
         std::vector<QuietFit> fits;
         for (const auto& quiet : quiets)
             if (known_fit(quiet) == nullptr) fits.push_back({quiet, {}});
