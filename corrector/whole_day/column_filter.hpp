@@ -83,7 +83,8 @@ template <Eigen::Index kStates, std::size_t kLanes>
     using Vectors = Vector<kLanes>;
     constexpr auto kWidth = static_cast<Eigen::Index>(kLanes);
     constexpr Eigen::Index kParts = kStates / kWidth;
-    typename Vectors::Lanes keep[kParts], gain[kParts] = {}, column;
+    constexpr auto kPartCount = static_cast<std::size_t>(kParts);
+    typename Vectors::Lanes keep[kPartCount], gain[kPartCount] = {}, column;
     double* const covariance = step.covariance.data();
 #pragma GCC unroll 8
     for (Eigen::Index part = 0; part < kParts; ++part)
@@ -131,7 +132,8 @@ template <Eigen::Index kStates, std::size_t kLanes>
         if (row < columns.begin[static_cast<std::size_t>(column / columns.kMostLanes)]) continue;
         double* const states = columns.states.data() + column;
         double* const reading = columns.values.data() + row * stride + column;
-        typename Vectors::Lanes x[kStates], parts[kStates], value;
+        constexpr auto kStateCount = static_cast<std::size_t>(kStates);
+        typename Vectors::Lanes x[kStateCount], parts[kStateCount], value;
 #pragma GCC unroll 16
         for (Eigen::Index k = 0; k < kStates; ++k) {
             Vectors::load(x[k], states + k * stride);

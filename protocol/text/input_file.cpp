@@ -1,6 +1,7 @@
 #include "protocol/text/input_file.hpp"
 
-#include <boost/crc.hpp>
+#include <zlib.h>
+
 #include <nlohmann/json.hpp>
 #include <string_view>
 #include <utility>
@@ -18,13 +19,14 @@ void to_json(nlohmann::ordered_json& json, const InputFile& input) {
 }
 
 InputFile describe_input(std::string role, const std::filesystem::path& file) {
-    boost::crc_32_type crc;
+    uLong crc = crc32_z(0, nullptr, 0);
     std::uint64_t byte_count = 0;
     read_file_in_blocks(file, [&](std::string_view block) {
-        crc.process_bytes(block.data(), block.size());
+        crc = crc32_z(crc, reinterpret_cast<const Bytef*>(block.data()), block.size());
         byte_count += block.size();
     });
-    return {std::move(role), file.filename().string(), byte_count, crc.checksum(), file};
+    return {std::move(role), file.filename().string(), byte_count,
+            static_cast<std::uint32_t>(crc), file};
 }
 
 std::string sha256_of_file(const std::filesystem::path& file) {

@@ -31,7 +31,7 @@ MORE_FILES = {
 }
 # Libraries that each package needs besides those of C and C++, and libraries of the other packages that it must not need.
 NEEDED = {"a351": ["libmodbus5", "libqrencode4", "libserialport0", "libmseed", "libzstd1"],
-          "a351-correct": ["libnlopt0", "libmseed"],
+          "a351-correct": ["libnlopt0", "libmseed", "zlib1g"],
           "a351-sim": ["libmseed", "libzstd1"], "a351-doc": []}
 NOT_NEEDED = {"a351-doc": ["libc6"], "a351": ["libnlopt0"], "a351-correct": ["libmodbus5", "libserialport0"], "a351-sim": ["libserialport0", "libnlopt0"]}
 
