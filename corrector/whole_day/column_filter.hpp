@@ -28,9 +28,9 @@ struct FilterStep {
     State measured;                     ///< Parts of the states in the reading.
     double of_mean = 0.0, white = 0.0;  ///< Variances of the reading besides those of the states.
 
-    Eigen::Matrix<double, kStates, kStates> covariance;  ///< Of the states after the bin.
+    Eigen::Matrix<double, kStates, kStates> covariance;  ///< Covariance of the states after the bin.
     State change;                                        ///< Change of the states per innovation.
-    double variance = 0.0;                               ///< Of the innovation.
+    double variance = 0.0;                               ///< Variance of the innovation.
 };
 
 /// Columns in the filter, padded to whole vectors, those of a bin or a state together.
