@@ -301,12 +301,13 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
         store.set_day_end(occupations.day_end());
     };
     if (occupations.running() || !occupations.list().empty()) note_change();
+    survey::SoFarReader reader;
+    const auto so_far = [&] { return reader.read(gravity.document()); };
     survey::SignalLog signal_log(occupations, live, [&](const auto& event) { store.note(event); });
     survey::Word word = survey::Word::no_data;  // The page's thread uses it.
     const auto log_signal = [&] {
         if (!is_recovered) return;  // The last run has logged the words of what its journal left.
-        const auto now =
-            signal_log.advance(snapshot(recorder), survey::read_so_far(gravity.document()));
+        const auto now = signal_log.advance(snapshot(recorder), so_far());
         const bool is_complete = now == survey::Word::go && occupations.running();
         if (is_complete && now != word) gravity.note_change(true);
         word = now;
@@ -319,6 +320,7 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
                        .longitude = config.station.longitude,
                        .events = [&] { return events::read_events(events).events; },
                        .gravity_so_far = [&] { return gravity.document(); },
+                       .so_far = so_far,
                        .bundle = [&] { return bundle_of_day(recorder, occupations, gravity, log); },
                        .changing = log_signal,
                        .changed = note_change,

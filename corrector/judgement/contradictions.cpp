@@ -20,8 +20,9 @@ using reading::FindingKind;
 /// Sources: the prior of whole_day::DayModel; four is a choice.
 constexpr double kUsualPlacement_mgal = 1.2, kUsualWeight = 4.0;
 
-Contradiction about(const reading::SurveyRow& row, std::string code, text::Message text) {
-    return {std::move(code), row.site, row.occupation, row.key, std::move(text)};
+Contradiction about(const reading::SurveyRow& row, std::string code, text::Message text,
+                    bool is_lesser = false) {
+    return {std::move(code), row.site, row.occupation, row.key, std::move(text), is_lesser};
 }
 
 /// Returns true for rows or contradictions of the same stay.
@@ -99,12 +100,16 @@ std::optional<double> ratio_of(const model::CorrectedRow& row) {
 
 void add_references(std::vector<Contradiction>& all, const model::SurveyCorrection& result) {
     std::vector<std::string> known;  // Sites with a reference in the fit.
-    for (const model::CorrectedRow& row : result.rows)
-        if (ratio_of(row) && std::ranges::count(known, row.row.site) == 0)
-            known.push_back(row.row.site);
+    double largest = 0.0;
     for (const model::CorrectedRow& row : result.rows) {
         const auto ratio = ratio_of(row);
-        if (!ratio || std::abs(*ratio) <= kContradictionRatio || is_named(all, row.row)) continue;
+        if (!ratio) continue;
+        largest = std::max(largest, std::abs(*ratio));
+        if (std::ranges::count(known, row.row.site) == 0) known.push_back(row.row.site);
+    }
+    for (const model::CorrectedRow& row : result.rows) {
+        const auto ratio = ratio_of(row);
+        if (!ratio || std::abs(*ratio) <= kLesserRatio || is_named(all, row.row)) continue;
         const double off_mgal =
             (*row.as<model::WholeDayRow>()->left_out - *row.row.reference).value();
         all.push_back(
@@ -114,7 +119,8 @@ void add_references(std::vector<Contradiction>& all, const model::SurveyCorrecti
                             "{} and {} contradict each other by {} mGal: one of them has a wrong "
                             "name or reference; read a third known benchmark",
                             known[0], known[1], size_of(off_mgal))
-                      : off_reference(row.row, off_mgal)));
+                      : off_reference(row.row, off_mgal),
+                  (known.size() == 2 ? largest : std::abs(*ratio)) <= kContradictionRatio));
         if (known.size() == 2) return;  // The other one says the same.
     }
 }
@@ -144,7 +150,7 @@ void add_set_ups(std::vector<Contradiction>& all, const model::SurveyCorrection&
         const double difference_mgal = std::abs(pair.after_all.value());
         const double expected_mgal =
             std::numbers::sqrt2 * placement_without(pairs, pair, result.rows);
-        if (difference_mgal <= kContradictionRatio * expected_mgal || is_named(all, row)) continue;
+        if (difference_mgal <= kLesserRatio * expected_mgal || is_named(all, row)) continue;
         all.push_back(about(
             row, "set_ups",
             text::message("{} and {} differ by {} mGal, {} times what their placement allows: ",
@@ -153,7 +159,8 @@ void add_set_ups(std::vector<Contradiction>& all, const model::SurveyCorrection&
                           text::fixed(difference_mgal / expected_mgal, 1)) +
                 (row.key == running_key && !running_key.empty()
                      ? text::message("lift the box, set it down level, and add a set-up")
-                     : text::message("read it again if you pass there"))));
+                     : text::message("read it again if you pass there")),
+            difference_mgal <= kContradictionRatio * expected_mgal));
     }
 }
 

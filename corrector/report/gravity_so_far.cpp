@@ -203,14 +203,16 @@ Json to_json(const GravitySoFar& so_far) {
         return std::ranges::count(kLeftOut, finding.kind) > 0 || is_move_of_running(finding);
     });
     json["findings"] = reading::findings_json(findings);
-    json["contradictions"] = Json::array();
+    for (const char* const name : {"contradictions", "lesser_contradictions"})
+        json[name] = Json::array();
     for (const judgement::Contradiction& one : contradictions)
-        json["contradictions"].push_back({{"code", one.code},
-                                          {"key", one.key},
-                                          {"site", one.site},
-                                          {"occupation", one.occupation},
-                                          {"text", one.text.english()},
-                                          {"text_parts", one.text.to_json()}});
+        json[one.is_lesser ? "lesser_contradictions" : "contradictions"].push_back(
+            {{"code", one.code},
+             {"key", one.key},
+             {"site", one.site},
+             {"occupation", one.occupation},
+             {"text", one.text.english()},
+             {"text_parts", one.text.to_json()}});
     return json;
 }
 

@@ -36,7 +36,7 @@ struct GravitySoFar {
 ///   reference of a stay that is named.
 /// - missing_parts: what is needed before gravity is known; null if it is.
 /// - left_out_difference_mgal: value without the station's reference, minus the reference.
-/// - contradictions: judgement::contradictions().
+/// - contradictions, lesser_contradictions: judgement::contradictions().
 /// - remarks: the reasons of its grade (reading_grade.hpp), or why it has no value.
 [[nodiscard]] nlohmann::ordered_json to_json(const GravitySoFar& so_far);
 

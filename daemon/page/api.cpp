@@ -129,8 +129,7 @@ json Api::status_now() const {
 }
 
 survey::SoFar Api::so_far_now() const {
-    return sources_.gravity_so_far ? survey::read_so_far(sources_.gravity_so_far())
-                                   : survey::SoFar();
+    return sources_.so_far ? sources_.so_far() : survey::SoFar();
 }
 
 Response Api::route(const Request& request) {

@@ -1,6 +1,7 @@
 #include "daemon/survey/so_far.hpp"
 
 #include <nlohmann/json.hpp>
+#include <utility>
 
 namespace a351::daemon::survey {
 namespace {
@@ -24,9 +25,21 @@ const json& list_of(const json& document, const char* key) {
     return found != document.end() && found->is_array() ? *found : kNone;
 }
 
+std::vector<Contradiction> contradictions_in(const json& document, const char* member) {
+    std::vector<Contradiction> all;
+    for (const json& one : list_of(document, member)) {
+        if (!one.is_object()) continue;
+        all.push_back({text_of(one, "code"),
+                       text_of(one, "key"),
+                       text::parse_message(one.value("text_parts", json()), text_of(one, "text")),
+                       {kChecked}});
+    }
+    return all;
+}
+
 }  // namespace
 
-SoFar read_so_far(std::string_view document) {
+SoFar SoFarReader::read(std::string_view document) {
     SoFar so_far;
     const json read = json::parse(document, nullptr, false);
     if (!read.is_object()) return so_far;
@@ -38,13 +51,14 @@ SoFar read_so_far(std::string_view document) {
         if (!one.gravity && stay.contains("missing_parts"))
             one.missing = text::parse_message(stay.at("missing_parts"), "");
     }
-    for (const json& one : list_of(read, "contradictions")) {
-        if (!one.is_object()) continue;
-        so_far.contradictions.push_back(
-            {text_of(one, "code"),
-             text_of(one, "key"),
-             text::parse_message(one.value("text_parts", json()), text_of(one, "text")),
-             {kChecked}});
+    so_far.contradictions = contradictions_in(read, "contradictions");
+    for (const Contradiction& one : so_far.contradictions)
+        if (!one.key.empty()) said_[one.key] = one.code;
+    for (Contradiction& one : contradictions_in(read, "lesser_contradictions")) {
+        const auto before = said_.find(one.key);
+        if (before == said_.end()) continue;
+        one.code = before->second;
+        so_far.contradictions.push_back(std::move(one));
     }
     return so_far;
 }

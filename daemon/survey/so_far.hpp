@@ -27,7 +27,18 @@ struct SoFar {
     std::vector<Contradiction> contradictions;
 };
 
-/// Reads the body of GET /api/survey; members that are not as expected are left out.
-[[nodiscard]] SoFar read_so_far(std::string_view document);
+/// Reads the body of GET /api/survey.
+///
+/// A contradiction that was read once stays while its stay has a lesser one, under the code that it
+/// had: the figures change a little with each sample, and the operator is to answer.  Not thread-safe:
+/// the page's thread owns it.
+class SoFarReader {
+public:
+    /// Members that are not as expected are left out.
+    [[nodiscard]] SoFar read(std::string_view document);
+
+private:
+    std::map<std::string, std::string> said_;  ///< Code of the last contradiction of each stay.
+};
 
 }  // namespace a351::daemon::survey

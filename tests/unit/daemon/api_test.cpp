@@ -170,6 +170,33 @@ TEST_CASE("what was looked at is not shown again, also after a restart", "[daemo
     page.ask(post("/api/occupation/checked", "{}"), 409);
 }
 
+TEST_CASE("a contradiction stays after the stop until it is checked or the figures agree",
+          "[daemon][page]") {
+    for (const bool is_checked : {false, true}) {
+        Page page;
+        page.status.now = page.status.last_sample.emplace(minute(30));
+        page.status.verdict.state = verdict::State::stable;
+        const auto word = [&] { return page.ask(get("/api/status"))["signal"]["word"].dump(); };
+        const auto figures = [&](const std::string& member, const std::string& code) {
+            page.gravity_so_far = R"({")" + member + R"(":[{"code":")" + code +
+                                  R"(","key":"20260314T081000Z","text":"11.6 mGal off"}]})";
+        };
+        page.ask(post("/api/occupation/start", R"({"site":"No.0","at":"2026-03-14T08:10:00Z"})"));
+        figures("lesser_contradictions", "references");
+        CHECK(word() == R"("keep_off")");  // It was not said before.
+        figures("contradictions", "reference");
+        CHECK(word() == R"("look")");
+        page.ask(post("/api/occupation/stop", R"({"at":"2026-03-14T08:20:00Z"})"));
+        figures("lesser_contradictions", "references");
+        CHECK(word() == R"("look")");
+        if (is_checked)
+            page.ask(post("/api/occupation/checked", R"({"key":"20260314T081000Z"})"));
+        else
+            page.gravity_so_far = R"({"lesser_contradictions":[]})";
+        CHECK(word() == R"("go")");
+    }
+}
+
 TEST_CASE("a fault of the sensor is said once, also while the signal shows the plan", "[daemon][page]") {
     Page page;
     page.status.now = page.status.last_sample.emplace(minute(30));

@@ -52,12 +52,14 @@ struct Page {
     live::Record live{*wire::find_profile("A351"), 50, {}};
     status::Status status;
     std::string gravity_so_far = R"({"reason":"not_yet","stays":[]})";
+    survey::SoFarReader reader;
     int changes = 0;  ///< Times that the API said that something changed.
     page::Api api{{.status = [this] { return status; },
                    .occupations = occupations,
                    .live = live,
                    .events = [this] { return recorder.log; },
                    .gravity_so_far = [this] { return gravity_so_far; },
+                   .so_far = [this] { return reader.read(gravity_so_far); },
                    .changed = [this] { ++changes; }},
                   kToken};
 

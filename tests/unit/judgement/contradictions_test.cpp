@@ -38,7 +38,7 @@ SurveyCorrection day(const std::vector<std::string>& sites, double off) {
 std::string said(const SurveyCorrection& result) {
     std::string text;
     for (const Contradiction& one : contradictions(result))
-        text += one.key + ' ' + one.text.english() + '|';
+        text += (one.is_lesser ? "lesser " : "") + one.key + ' ' + one.text.english() + '|';
     return text;
 }
 
@@ -46,7 +46,14 @@ std::string said(const SurveyCorrection& result) {
 
 TEST_CASE("known stations contradict from four uncertainties on; of two neither is named alone",
           "[contradiction]") {
-    CHECK(said(day({"A", "B"}, 4.0)).empty());
+    CHECK(said(day({"A", "B"}, 3.0)).empty());
+    const std::string of_both =
+        "K0 A and B contradict each other by 8.0 mGal: one of them has a wrong name or reference; "
+        "read a third known benchmark|";
+    SurveyCorrection two = day({"A", "B"}, 4.0);
+    CHECK(said(two) == "lesser " + of_both);
+    two.rows[1].studentised_residual = 4.1;  // The same is said, of the same stay.
+    CHECK(said(two) == of_both);
     CHECK(said(day({"A", "B"}, 35.0)) ==
           "K0 A and B contradict each other by 70.0 mGal: one of them has a wrong name or "
           "reference; read a third known benchmark|");
@@ -56,6 +63,8 @@ TEST_CASE("known stations contradict from four uncertainties on; of two neither 
     CHECK(said(three) ==
           "K1 B (1) differs from its reference by 10.0 mGal: check its name and its reference, "
           "then read it again|");
+    three.rows[1].studentised_residual = 3.9;
+    CHECK(said(three).starts_with("lesser K1 B (1) differs"));
     three.rows[1].row.is_reference_refused = true;
     CHECK(said(three).empty());
 }
@@ -72,8 +81,10 @@ TEST_CASE("two stations that contradict each other enlarge all uncertainties, on
 TEST_CASE("set-ups of a stay contradict when they differ by more than their placement allows",
           "[contradiction]") {
     SurveyCorrection result = day({"A", "B", "B"}, 0.0);
-    result.rows[2].corrected = MilliGal(6.7);  // 4 x sqrt 2 x 1.2 = 6.79
+    result.rows[2].corrected = MilliGal(5.0);  // 3 x sqrt 2 x 1.2 = 5.09
     CHECK(said(result).empty());
+    result.rows[2].corrected = MilliGal(6.7);  // 4 x sqrt 2 x 1.2 = 6.79
+    CHECK(said(result).starts_with("lesser K2 B (1a) and B (1b) differ"));
     result.rows[2].corrected = MilliGal(12.0);
     CHECK(said(result) ==
           "K2 B (1a) and B (1b) differ by 12.0 mGal, 7.1 times what their placement allows: read "
