@@ -68,7 +68,7 @@ void add_residual(ReadingGrade& reading, const model::CorrectedRow& row, bool is
         {"off_reference",
          {ratio * row.u_corrected->value(), std::abs(ratio)},
          text::message(
-             "{} mGal {}{}, {} times its uncertainty",
+             "{} mGal {}{}, {} times the uncertainty expected if name and reference are right",
              text::fixed(std::abs(ratio) * row.u_corrected->value(), 1),
              ratio > 0.0 ? text::message("above its reference")
                          : text::message("below its reference"),

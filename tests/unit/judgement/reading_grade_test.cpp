@@ -85,7 +85,8 @@ TEST_CASE("the whole-day model is graded by its prediction without the station",
     result.rows[0].studentised_residual = 3.1;
     CHECK(first_grade(result) == Grade::repeat);
     CHECK(first_reasons(result) ==
-          "6.2 mGal above its reference when its station is left out, 3.1 times its uncertainty|");
+          "6.2 mGal above its reference when its station is left out, 3.1 times "
+          "the uncertainty expected if name and reference are right|");
 }
 
 TEST_CASE("a reading with a scatter above its uncertainty is graded care, a shaken one repeat",
