@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -109,17 +108,23 @@ void add_value(Json& json, const Stay& stay, const model::SurveyCorrection& resu
             std::hypot(factor * *u, is_named ? std::max(std::abs(off), 0.5 * (most - least)) : 0.0);
 }
 
+constexpr auto kSize = [](double number) { return std::abs(number); };
+
 /// @param is_running  its last set-up may have just begun: too few samples are no remark then.
 Json remarks_of(const Stay& stay, const std::vector<judgement::ReadingGrade>& grades,
                 const std::vector<reading::LeftOut>& left_out, bool is_running) {
-    Json remarks = Json::array();
-    std::set<std::string> texts;
+    std::vector<judgement::Reason> reasons;
+    // Set-ups of a stay differ little, so of reasons with numbers the largest is enough.
     const auto add = [&](const judgement::Reason& reason) {
-        if (texts.insert(reason.text.english()).second)
-            remarks.push_back({{"code", reason.code},
-                               {"numbers", reason.numbers},
-                               {"text", reason.text.english()},
-                               {"text_parts", reason.text.to_json()}});
+        const auto same = std::ranges::find_if(reasons, [&](const judgement::Reason& other) {
+            return other.code == reason.code &&
+                   (!reason.numbers.empty() || other.text.english() == reason.text.english());
+        });
+        if (same == reasons.end())
+            reasons.push_back(reason);
+        else if (std::ranges::lexicographical_compare(same->numbers, reason.numbers, {}, kSize,
+                                                      kSize))
+            *same = reason;
     };
     for (const std::size_t i : stay.left_out) {
         const bool has_just_begun = is_running && i == stay.left_out.back() &&
@@ -129,6 +134,12 @@ Json remarks_of(const Stay& stay, const std::vector<judgement::ReadingGrade>& gr
     if (!grades.empty())
         for (const std::size_t i : stay.rows)
             for (const judgement::Reason& reason : grades[i].reasons) add(reason);
+    Json remarks = Json::array();
+    for (const judgement::Reason& reason : reasons)
+        remarks.push_back({{"code", reason.code},
+                           {"numbers", reason.numbers},
+                           {"text", reason.text.english()},
+                           {"text_parts", reason.text.to_json()}});
     return remarks;
 }
 
