@@ -76,7 +76,7 @@ TEST_CASE("the sentence has the reason and what to do, with two buttons at most"
     verdict::Verdict filling;  // Of filters, at a start or after a gap.
     filling.reasons.resize(1);
     CHECK(signal_of(filling, {"why"}, {}, "", {}).sentence ==
-          "Values arrive. The first good one takes 20 s without a gap.");
+          "Values arrive. The signal needs 20 s of them without a gap.");
     CHECK(sentence(State::warming_up, {}) ==
           "The box is not at its operating temperature yet: why.");
     CHECK(sentence(State::stable, PlannedStay{"No.1", plan_with(1, 129.2)}) ==
