@@ -8,7 +8,7 @@ import time
 from browser import Browser, widest_blank
 from made_up import occupation, signal, sites
 from programs import IS_LONG, demand
-from stub_daemon import StubDaemon
+from stub_daemon import RATE_HZ, StubDaemon
 
 GAP_S = 4.0
 MINUTE_S = 60.0
@@ -71,6 +71,20 @@ def show_stale(stub, browser):
     browser.wait_for("the banner disappears with new data", lambda: browser.text("banner") == "", seconds=3.0)
     demand("the word is shown again", browser.text("signal-word") == "KEEP OFF")
     stub.status["signal"], stub.status["occupation"] = signal("go", buttons=["start"]), None
+
+
+def load_in_an_outage(stub, browser):
+    stub.is_sampling = False
+    time.sleep(5.0)
+    last_s = stub.begin_s + stub.samples[-1][0] / RATE_HZ
+    browser.driver.refresh()
+    time.sleep(2.0)  # The page from before has gone.
+    browser.wait_for_text("banner", "STALE: no new data.")
+    said, age_s = browser.text("banner"), time.time() - last_s
+    shown_s = float(said.split("are ")[1].split(" s")[0])
+    demand(f"a page loaded in an outage says {shown_s} s, the last sample is {age_s:.1f} s old", abs(shown_s - age_s) < 1.5)
+    stub.is_sampling = True
+    browser.wait_for("the banner disappears with new data", lambda: browser.text("banner") == "", seconds=3.0)
 
 
 def show_other_clock(stub, browser):
@@ -148,3 +162,4 @@ with Browser(allowed_errors=["WebSocket connection to", "ERR_EMPTY_RESPONSE", "F
     show_gap(daemon, page)
     page.resize((1366, 768))
     show_lost(daemon, page)
+    load_in_an_outage(daemon, page)

@@ -45,7 +45,8 @@ function compare_clocks(host_now) {
 }
 
 function advance_to(sample_ms) {
-    if (newest_ms !== null && sample_ms <= newest_ms) return;
+    // The status says the time of the same sample in whole milliseconds.
+    if (newest_ms !== null && sample_ms < newest_ms + 1) return;
     newest_ms = sample_ms;
     advanced_at_ms = performance.now();
 }
