@@ -224,6 +224,26 @@ def choose_next(stub, browser):
     browser.shot("start-1366")
 
 
+def show_missed_set_up(stub, browser):
+    last = {**finished("No.6", hours_ago=0.2), "key": "key-3"}
+    missed, at = "No.6 (1): box lifted and set down without a set-up; only the part before is used", last["set_ups"][0]["start"]
+    stub.occupations = [*stub.occupations[:-1], last]
+    stub.survey = survey([stay("No.6", key="key-3")], [{**finding(missed, False, "key-3"), "kind": "missed_set_up", "time_utc": at}])
+    browser.wait_for("a stay with a missed set-up is doubtful", lambda: "No.6 (1)|979861.3 ± 1.3||⚠" in cells(browser), seconds=15)
+    browser.click("#day-rows [data-key='key-3']")
+    browser.wait_for_text("day-rows", f"⚠ {missed}")
+    browser.wait_for_text("day-setup", f"Next set-up at {at[11:19]}")
+    stub.posts.clear()
+    browser.click("#day-setup")
+    browser.wait_for("three orders are sent", lambda: len(stub.posts) == 3)
+    sent = [(path.split("/")[-1], body["key"], body.get("at")) for path, body in stub.posts]
+    demand(f"the stay is resumed, divided and stopped as before: {sent}",
+           sent == [("resume", "key-3", None), ("setup", "key-3", at), ("stop", "key-3", last["set_ups"][0]["end"])])
+    stub.status["occupation"] = occupation()
+    browser.wait_for("while a stay runs the button is hidden", lambda: browser.text("day-setup") == "")
+    stub.status["occupation"] = None
+
+
 def show_no_figures(stub, browser):
     stub.survey = {**stub.survey, "reason": "killed", "reason_text": "signal 9 ended it"}
     browser.wait_for_text("gravity-state", "These figures are old: signal 9 ended it.", seconds=15)
@@ -282,6 +302,7 @@ with Browser() as page:
     show_day(daemon, page)
     show_figures(daemon, page)
     choose_next(daemon, page)
+    show_missed_set_up(daemon, page)
     show_no_figures(daemon, page)
     show_trouble(daemon, page)
     show_check_lists(daemon, page)

@@ -3,7 +3,7 @@
 
 import { by_id, make, set_text, show } from "./dom.js";
 import { duration, number, signed, visible } from "./format.js";
-import { doubts_of, gravity_of } from "./gravity.js";
+import { doubts_of, gravity_of, missed_set_up_of } from "./gravity.js";
 import { tr } from "./language.js";
 import { time_of_day, zone } from "./time.js";
 
@@ -47,8 +47,9 @@ function row_of(one) {
 
 export class DayList {
     /** @param open  opens a dialog for a stay: open(kind, stay).
-        @param change  sends an order: change(path, body). */
-    constructor(open, change) {
+        @param change  sends an order: change(path, body).
+        @param divide  begins a set-up in a stay that has ended: divide(stay, at). */
+    constructor(open, change, divide) {
         this.stays = []; // The newest first.
         this.resumable = null; // Key of the stay that can be resumed.
         this.unfolded = null; // Key of the stay whose remarks are shown.
@@ -60,6 +61,7 @@ export class DayList {
                 change(`/api/occupation/${kind}`, { key, site });
             });
         }
+        by_id("day-setup").addEventListener("click", () => divide(this.named(), missed_set_up_of(this.unfolded).time_utc));
         const press = (event) => {
             const key = event.target.closest("tr")?.dataset.key;
             if (key === undefined || (event.key && event.key !== "Enter" && event.key !== " ")) return;
@@ -92,7 +94,7 @@ export class DayList {
     /** Draws the table if it has changed, and keeps the focus. */
     draw() {
         const rows = this.stays.map(row_of);
-        const text = JSON.stringify([rows, this.unfolded, this.resumable]);
+        const text = JSON.stringify([rows, this.unfolded, this.resumable, missed_set_up_of(this.unfolded)]);
         if (text === this.shown) return;
         this.shown = text;
         const focused = document.activeElement?.dataset.key;
@@ -105,6 +107,10 @@ export class DayList {
         show("day-change", chosen !== undefined);
         for (const kind of kDialogs) show(`day-${kind}`, chosen !== undefined && !chosen.is_discarded);
         show("day-resume", chosen !== undefined && chosen.key === this.resumable);
+        // Later it is an amendment.
+        const missed = chosen?.key === this.resumable && missed_set_up_of(chosen?.key);
+        show("day-setup", Boolean(missed));
+        if (missed) set_text("day-setup", tr("Next set-up at {}", time_of_day(missed.time_utc)));
         show("day-restore", Boolean(chosen?.is_discarded));
     }
 

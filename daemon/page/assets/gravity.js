@@ -33,9 +33,14 @@ export function gravity_of(key) {
     return survey.stays.find((stay) => stay.key === key);
 }
 
-/** Returns what speaks against the reading of a stay, as texts. */
+/** Returns the finding that the box was lifted and set down in a stay without Next set-up; undefined if there is none. */
+export function missed_set_up_of(key) {
+    return survey.findings.find((one) => one.key === key && one.kind === "missed_set_up");
+}
+
+/** Returns what speaks against the reading of a stay, as texts.  After a missed set-up a part of it is not used. */
 export function doubts_of(key) {
-    const findings = survey.findings.filter((one) => one.key === key && one.is_headline);
+    const findings = survey.findings.filter((one) => one.key === key && (one.is_headline || one === missed_set_up_of(key)));
     const texts = [...(survey.contradictions ?? []).filter((one) => one.key === key), ...findings, ...(gravity_of(key)?.remarks ?? [])].map(text_of);
     return [...new Set(texts)];
 }

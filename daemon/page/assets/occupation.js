@@ -47,7 +47,8 @@ export class OccupationPanel {
         this.now_ms = 0;
         by_id("start-operator").value = recalled("operator");
         this.dialogs = new StayDialogs((path, body) => this.send(path, this.signed(body)), () => this.chosen("rename"));
-        this.day = new DayList((kind, stay) => this.dialogs.open(kind, stay), (path, body) => this.change(path, body));
+        this.day = new DayList((kind, stay) => this.dialogs.open(kind, stay), (path, body) => this.change(path, body),
+            (stay, at) => this.divide(stay, at));
         this.new_site = new NewSite((path, body) => this.send(path, body), (site) => { this.wanted_site = site; });
         this.listen();
     }
@@ -131,6 +132,13 @@ export class OccupationPanel {
     /** Sends a change of a stay, with the operator's name. */
     change(path, body) {
         return this.order(path, this.signed(body));
+    }
+
+    /** Begins a set-up in the last stay, which has ended: it is resumed, and stopped when it was stopped. */
+    async divide({ key, site, end }, at) {
+        const stay = { key, site };
+        return await this.change("/api/occupation/resume", stay) && await this.order("/api/occupation/setup", { ...stay, at })
+            && this.change("/api/occupation/stop", { ...stay, at: end });
     }
 
     /** Shows why an order was not carried out. */
