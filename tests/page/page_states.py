@@ -258,7 +258,7 @@ def show_trouble(stub, browser):
     demand("the sentence of the signal is not said twice", browser.text("trouble") == "")
     stub.status["level"] = "fault"
     stub.status["reasons"] = ["the disk of the data root is full", "port: no such device"]
-    browser.wait_for_text("trouble", "FAULT: the disk of the data root is full; port: no such device")
+    browser.wait_for_text("trouble", "FAULT: the disk of the data root is full\nport: no such device")
     stub.rows = [row("state", ["fault"], ": the disk is full", level="fault"), row("troubles", "checksum errors 3"),
                  row("temperature", "42.500 degC"), row("outer oven", ["disabled"])]
     browser.open_details()

@@ -33,10 +33,10 @@ export function show_signal(signal, stay, stale_s) {
     return word;
 }
 
-/** Returns the reasons of the status in words, without the one that is the signal's sentence. */
+/** Returns the reasons of the status in words, one per line, without the one that is the signal's sentence. */
 export function troubles_of({ reasons, reason_parts, signal }) {
     return sentences(reason_parts, reasons).filter((_, i) => !signal.sentence.startsWith(reasons[i])).map((text) => visible(with_local_times(text)))
-        .join("; ");
+        .join("\n");
 }
 
 /** Shows the tilt relative to the first set-up of the day.
