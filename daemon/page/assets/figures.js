@@ -114,7 +114,8 @@ function map_parts({ sites, here }) {
     });
 }
 
-/** Shows the benchmarks, filled in where they were read today.  @param here  the site of the running stay or the next start. */
+/** Shows the benchmarks, filled in where they were read today.  @param stays  those that have ended.
+    @param here  the site of the running stay or the next start. */
 export function show_map(sites, stays, here) {
     const placed = sites.filter((one) => Number.isFinite(one.latitude_deg));
     show("map-figure", placed.length > 1);

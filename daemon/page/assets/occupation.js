@@ -277,7 +277,7 @@ export class OccupationPanel {
         const stays = [...this.today().map(({ key, site, set_ups }) => ({ key, site, start: set_ups[0].start })), ...(this.running ? [this.running] : [])];
         show_trace(this.running, this.now_ms);
         show_differences(stays);
-        show_map(this.sites, stays, this.running?.site ?? this.chosen("start"));
+        show_map(this.sites, this.today(), this.running?.site ?? this.chosen("start"));
     }
 
     show_running(one) {
