@@ -253,6 +253,7 @@ Response Api::change(std::string_view path, const std::string& body) {
         const auto order = parse_order(body, {"site", "operator", "note", "at", "set_ups", "face"});
         if (order.site.empty()) throw InputError("body: key site is missing");
         outcome = occupations.start(order.site, order.remark, order.at, order.set_ups, order.face);
+        if (outcome.kind == survey::Outcome::Kind::refused) outcome.message += move_since_start();
     } else if (path == "/api/occupation/stop") {
         const auto order = parse_order(body, {"key", "site", "operator", "note", "at"});
         if (const auto other = other_stay(order, occupations.running()); !other.empty())
@@ -279,6 +280,15 @@ Response Api::change(std::string_view path, const std::string& body) {
     }
     if (outcome.kind == survey::Outcome::Kind::done && sources_.changed) sources_.changed();
     return answer_of(outcome, occupations.running());
+}
+
+/// Says when the box of the running stay was carried away; empty if it was not seen.
+text::Message Api::move_since_start() const {
+    const auto moved =
+        survey::moved_box(sources_.occupations, sources_.live, sources_.status().now);
+    if (!moved || moved->is_at_start || moved->is_set_up) return {};
+    const std::string time = to_rfc3339(moved->time, 0);
+    return text::message("; the box was moved at {}: a351ctl stop --at {}", time, time);
 }
 
 /// Says that the operator has looked at the contradiction that the signal shows.

@@ -42,6 +42,30 @@ TEST_CASE("the log has each word with the time of the data, however seldom it is
     CHECK(logged(600) == often);
 }
 
+TEST_CASE("a start while a stay runs says when the box was carried away",
+          "[daemon][page]") {
+    Page page;
+    page.recorder.last = minute(10);
+    page.ask(post("/api/occupation/start", R"({"site":"No.0"})"));
+    const auto record = [&](int from_s, int to_s, double shaken_mgal) {
+        for (std::int64_t i = 50 * from_s; i < 50 * to_s; ++i) {
+            auto sample =
+                live::placed(i, 100.0 + shaken_mgal * std::sin(double(i)), 0.0, 980000.0);
+            sample.counts[3] += static_cast<std::int32_t>(i / 3000 % 2);
+            page.live.take(sample);
+        }
+        page.status.now = page.status.last_sample.emplace(live::after(to_s));
+        page.status.verdict.state = verdict::State::stable;
+        return page.ask(post("/api/occupation/start", R"({"site":"No.1"})"), 409)["error"]
+            .get<std::string>();
+    };
+    CHECK(record(0, 1200, 0.0).ends_with("stop or discard it first"));
+    const std::string answer = record(1200, 1500, 20000.0);
+    const auto at = answer.find("; the box was moved at 2026-03-14T08:");
+    REQUIRE(at != std::string::npos);
+    CHECK(answer.find(": a351ctl stop --at 2026-03-14T08:", at) != std::string::npos);
+}
+
 TEST_CASE("a turn that was forgotten, a box on its side and a face entered wrong are LOOK",
           "[daemon][page][faces]") {
     struct Box {
