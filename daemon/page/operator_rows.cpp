@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "daemon/page/status_rows.hpp"
@@ -27,6 +28,26 @@ Row signal_row(const json& signal) {
             is_wrong                                                ? "warning"
             : word == "go" && signal.at("buttons").at(0) != "start" ? "good"
                                                                     : ""};
+}
+
+/// Returns the commands of the terminal for the buttons of LOOK.
+std::string commands_of(const json& buttons, const json& stay) {
+    const std::string at = stay.is_object() && stay.at("moved").is_object()
+                               ? stay.at("moved").at("utc").get<std::string>()
+                               : "";
+    const std::string key = stay.is_object() ? stay.at("key").get<std::string>() : "";
+    const std::map<std::string, std::string> commands{
+        {"stop_at", "stop --at " + at},
+        {"setup_at", "setup --at " + at},
+        {"begin_at", "retime " + key + " --from " + at},
+        {"not_moved", "not-moved"},
+        {"setup", "setup"},
+        {"checked", "checked"},
+    };
+    std::string text;
+    for (const json& button : buttons)
+        text += (text.empty() ? "a351ctl " : ", or a351ctl ") + commands.at(button);
+    return text;
 }
 
 Message stay_text(const json& stay) {
@@ -62,6 +83,9 @@ Message tilt_text(const json& tilt) {
 std::vector<Row> operator_rows(const json& status) {
     std::vector<Row> rows{signal_row(status.at("signal"))};
     const json& stay = status.at("occupation");
+    const json& signal = status.at("signal");
+    if (signal.at("word") == "look" && !signal.at("buttons").empty())
+        rows.push_back({text::marked("commands"), commands_of(signal.at("buttons"), stay)});
     rows.push_back({text::marked("occupation"),
                     stay.is_null() ? text::message("none running") : stay_text(stay)});
     if (!stay.is_null()) {

@@ -42,7 +42,7 @@ TEST_CASE("the log has each word with the time of the data, however seldom it is
     CHECK(logged(600) == often);
 }
 
-TEST_CASE("a start while a stay runs says when the box was carried away",
+TEST_CASE("a start while a stay runs says when the box was carried away, and the rows how to stop then",
           "[daemon][page]") {
     Page page;
     page.recorder.last = minute(10);
@@ -64,6 +64,11 @@ TEST_CASE("a start while a stay runs says when the box was carried away",
     const auto at = answer.find("; the box was moved at 2026-03-14T08:");
     REQUIRE(at != std::string::npos);
     CHECK(answer.find(": a351ctl stop --at 2026-03-14T08:", at) != std::string::npos);
+    const json rows = page.ask(get("/api/rows"))["rows"];
+    CHECK(is(rows, "/2/label", R"("commands")"));
+    const auto commands = rows.at(2).at("text").get<std::string>();
+    CHECK(commands.starts_with("a351ctl stop --at 2026-03-14T08:"));
+    CHECK(commands.ends_with("Z, or a351ctl not-moved"));
 }
 
 TEST_CASE("a turn that was forgotten, a box on its side and a face entered wrong are LOOK",
