@@ -31,19 +31,23 @@ std::vector<double> uncertainties(const model::SurveyCorrection& result) {
     return values;
 }
 
-std::string accuracy(const model::SurveyCorrection& result) {
+std::string counted_stations(const model::SurveyCorrection& result) {
     const std::size_t count = result.stations.size();
+    return count == 1 ? tr("One station") : tr("{} stations", count);
+}
+
+std::string accuracy(const model::SurveyCorrection& result) {
+    const std::string stations = counted_stations(result);
     if (const auto loso = result.score.loso_mgal)
-        return tr("{} stations; a new one is known to +- {} mGal (each known station left out).",
-                  count, text::fixed(*loso, decimals_for(loso)));
+        return tr("{}; a new one is known to +- {} mGal (each known station left out).", stations,
+                  text::fixed(*loso, decimals_for(loso)));
     const std::vector<double> u = uncertainties(result);
     if (u.empty())
-        return tr(
-            "{} stations; this model and these readings do not show how well a new one is known.",
-            count);
+        return tr("{}; this model and these readings do not show how well a new one is known.",
+                  stations);
     const int decimals = decimals_of(result);
-    return tr("{} stations; u is {} to {} mGal, not tested: no known station can be left out.",
-              count, text::fixed(u.front(), decimals), text::fixed(u.back(), decimals));
+    return tr("{}; u is {} to {} mGal, not tested: no known station can be left out.", stations,
+              text::fixed(u.front(), decimals), text::fixed(u.back(), decimals));
 }
 
 std::string listed(const reading::LeftOut& stay) {
@@ -85,9 +89,9 @@ int decimals_of(const model::Coefficient& coefficient) {
 std::string answer(const model::SurveyCorrection& result, const std::vector<ReadingGrade>& grades) {
     const bool is_unusable = std::ranges::count(result.findings, reading::FindingKind::unusable_day,
                                                 &reading::Finding::kind) > 0;
-    std::string text = is_unusable ? tr("{} stations, but this day cannot be used as it is.",
-                                        result.stations.size())
-                                   : accuracy(result);
+    std::string text =
+        is_unusable ? tr("{}, but this day cannot be used as it is.", counted_stations(result))
+                    : accuracy(result);
     const bool has_findings = !std::ranges::all_of(result.findings, reading::is_remark);
     if (has_findings) text += ' ' + tr("First look at what was found (below).");
     if (std::ranges::any_of(result.findings, [](const reading::Finding& finding) {

@@ -290,6 +290,10 @@ int main(int argc, char** argv) {
         return run(app, a, argc, argv);
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);
+        if (error.get_name() == "RequiredError" && std::string(error.what()).starts_with("STAY")) {
+            complain(text::tr("the key of the stay is missing; a351ctl list shows it"));
+            return kUsage;
+        }
         complain(std::string(error.what()) + "; see a351ctl --help");
         return usage_status();
     } catch (const InputError& error) {

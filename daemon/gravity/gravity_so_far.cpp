@@ -1,18 +1,30 @@
 #include "daemon/gravity/gravity_so_far.hpp"
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
+#include <string_view>
 #include <utility>
+
+#include "protocol/text/message.hpp"
 
 namespace a351::daemon::gravity {
 namespace {
 
 using std::chrono::steady_clock;
 
+/// Reasons without a cause, in words.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kReasons{{
+    {"not_yet", text::marked("not computed yet")},
+    {"off", text::marked("switched off by gravity_every_min = 0")},
+    {"no_sites", text::marked("the configuration names no table of sites")},
+}};
+
 /// Returns a document without figures.
 nlohmann::ordered_json empty_document() {
     nlohmann::ordered_json document;
-    for (const char* const name : {"as_of_utc", "data_to_utc", "reason", "reason_text", "model"})
+    for (const char* const name :
+         {"as_of_utc", "data_to_utc", "reason", "reason_text", "reason_parts", "model"})
         document[name] = nullptr;
     for (const char* const name : {"stays", "findings"})
         document[name] = nlohmann::ordered_json::array();
@@ -89,8 +101,13 @@ std::string GravitySoFar::document() const {
     if (reason_.empty()) return document_;
     auto document = document_.empty() ? empty_document() : nlohmann::ordered_json::parse(document_);
     document["reason"] = reason_;
-    document["reason_text"] = nullptr;
+    document["reason_text"] = document["reason_parts"] = nullptr;
     if (!cause_.empty()) document["reason_text"] = cause_;
+    for (const auto& [reason, words] : kReasons) {
+        if (reason != reason_) continue;
+        document["reason_text"] = words;
+        document["reason_parts"] = text::marked_message(words).to_json();
+    }
     return document.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
 }
 

@@ -302,6 +302,8 @@ survey::Outcome Api::check(const Order& order) const {
                           (order.code.empty() || order.code == open.front().code) &&
                           (order.key.empty() || order.key == open.front().key);
     if (is_shown) return sources_.occupations.check(open.front());
+    if (open.empty())
+        return {survey::Outcome::Kind::refused, text::message("there is no LOOK to answer")};
     return {survey::Outcome::Kind::refused,
             text::message("the signal shows something else by now; nothing was changed")};
 }

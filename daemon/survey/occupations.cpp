@@ -105,10 +105,13 @@ Occupations::Placed Occupations::place_in_running(std::optional<UtcTime> at) {
     if (!running()) return {std::nullopt, text::message("no occupation is running")};
     auto placed = place(at);
     if (placed.instant) placed.instant = in_running(*placed.instant);
-    if (!placed.instant || placed.instant->utc > running()->set_ups.back()) return placed;
+    const bool is_after =
+        placed.instant ? placed.instant->utc > running()->set_ups.back()
+                       : !at || *at > running()->set_ups.back();  // Its data may have left memory.
+    if (is_after) return placed;
     return {std::nullopt, text::message("{} is not after the start of the set-up at {}, {}",
-                                        shown(placed.instant->utc), running()->site,
-                                        shown(running()->set_ups.back()))};
+                                        shown(placed.instant ? placed.instant->utc : *at),
+                                        running()->site, shown(running()->set_ups.back()))};
 }
 
 std::optional<text::Message> Occupations::trouble_with_site(std::string_view site) const {
@@ -116,7 +119,7 @@ std::optional<text::Message> Occupations::trouble_with_site(std::string_view sit
     if (sites_.empty() || text::find_site(sites_, site)) return std::nullopt;
     const text::Site* const similar = text::similar_site(sites_, site);
     return text::message(
-        "site {} is not one of the {} sites in the list{}", site, sites_.size(),
+        "site {} is not one of the {} sites that a351ctl sites lists{}", site, sites_.size(),
         similar ? text::message("; did you mean {}?", similar->name) : text::Message());
 }
 

@@ -7,11 +7,6 @@ import { sentence, tr } from "./language.js";
 import { time_with_utc, with_local_times } from "./time.js";
 
 const kRefresh_ms = 5000;
-const kGravityReasons = {
-    not_yet: tr("not computed yet"),
-    off: tr("switched off by gravity_every_min = 0"),
-    no_sites: tr("the configuration names no table of sites"),
-};
 
 let survey = { stays: [], findings: [] };
 let next_ms = 0;
@@ -23,7 +18,7 @@ function text_of(said) {
 /** Returns why there are no new figures; "" if there are. */
 function trouble() {
     if (!survey.reason) return "";
-    const reason = kGravityReasons[survey.reason] ?? sentence(survey.reason_parts, survey.reason_text) ?? survey.reason;
+    const reason = sentence(survey.reason_parts, survey.reason_text) ?? survey.reason;
     const head = survey.stays.some((stay) => stay.gravity_mgal !== null) ? tr("These figures are old") : tr("No figures");
     return `${head}: ${visible(reason)}.`;
 }

@@ -167,7 +167,8 @@ TEST_CASE("what was looked at is not shown again, also after a restart", "[daemo
     CHECK(again.is_checked({"reference", "20260314T081000Z", {}, {}}, minute(31)));
     CHECK_FALSE(again.is_checked({"reference", "20260314T081000Z", {}, {}}, minute(60 * 25)));
     CHECK_FALSE(again.is_checked({"reference", "L", {}, {}}, minute(31)));
-    page.ask(post("/api/occupation/checked", "{}"), 409);
+    CHECK(is(page.ask(post("/api/occupation/checked", "{}"), 409), "/error",
+             R"("there is no LOOK to answer")"));
 }
 
 TEST_CASE("a contradiction stays after the stop until it is checked or the figures agree",

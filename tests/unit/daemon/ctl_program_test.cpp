@@ -149,6 +149,9 @@ TEST_CASE("other commands exit with 0 if done, 1 if refused, 2 for wrong usage, 
     CHECK(has(run("fly"), "a351ctl: fly is not a command; allowed: status, start, stop,"));
     CHECK(has(run(""), "a351ctl: no command is given; allowed: status"));
     CHECK(has(run("stop now"), "a351ctl: now is not an argument of stop; see a351ctl stop --help"));
+    CHECK(has(run("restore"),
+              "a351ctl: the key of the stay is missing; a351ctl list shows it"));
+    CHECK(run("restore").exit == 2);
     const auto nobody = run("--url http://127.0.0.1:1 stop");
     CHECK(nobody.exit == 3);
     CHECK(has(nobody, "a351ctl: no daemon answers at http://127.0.0.1:1"));

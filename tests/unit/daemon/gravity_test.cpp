@@ -95,7 +95,8 @@ TEST_CASE("the corrector runs after a change, again later, and regularly while a
 
 TEST_CASE("a failure keeps the last figures, is said once, and a success ends it", "[gravity]") {
     const test::TemporaryDirectory folder;
-    const auto answer = folder.write("answer", "{\"reason\":null,\"stays\":[1]}");
+    const auto answer =
+        folder.write("answer", "{\"reason\":null,\"reason_parts\":[[\"old\",[]]],\"stays\":[1]}");
     std::atomic<int> said{0};
     GravitySoFar gravity({.command = {"/bin/cat", answer.string()},
                           .every = 50ms,
@@ -108,6 +109,7 @@ TEST_CASE("a failure keeps the last figures, is said once, and a success ends it
     REQUIRE(comes_true([&] { return parsed(gravity).at("reason") == "no_document"; }));
     CHECK(parsed(gravity).at("stays") == nlohmann::json{1});
     CHECK(!parsed(gravity).at("reason_text").is_null());
+    CHECK(parsed(gravity).at("reason_parts").is_null());
     std::this_thread::sleep_for(300ms);
     CHECK(said == 1);
     folder.write("answer", "{\"reason\":null,\"stays\":[2]}");
@@ -130,6 +132,8 @@ TEST_CASE("without a command the document has the reason", "[gravity]") {
     gravity.start();
     gravity.note_change(true);
     CHECK(parsed(gravity).at("reason") == "no_sites");
+    CHECK(parsed(gravity).at("reason_text") == "the configuration names no table of sites");
+    CHECK(parsed(gravity).at("reason_parts").is_array());
     CHECK(parsed(gravity).at("stays").empty());
 }
 

@@ -306,7 +306,8 @@ TEST_CASE("a missing site is refused, and an unknown one too if there is a list 
           "[daemon][occupations]") {
     FakeRecorder recorder;
     Occupations occupations(recorder, two_sites(), {});
-    CHECK(mentions(occupations.start("No.7", {}, minute(1)), "No.7 is not one of the 2"));
+    CHECK(mentions(occupations.start("No.7", {}, minute(1)),
+                   "No.7 is not one of the 2 sites that a351ctl sites lists"));
     CHECK(mentions(occupations.start("no 1", {}, minute(1)), "did you mean No.1?"));
     CHECK(occupations.start("", {}, minute(1)).kind == Kind::refused);
     Occupations unlisted(recorder, {}, {});
@@ -422,6 +423,8 @@ TEST_CASE("stop and setup need a running occupation and a time after its last se
     CHECK(occupations.setup(minute(1)).kind == Kind::refused);
     occupations.start("No.0", {}, minute(10));
     CHECK(occupations.stop({}, minute(9)).kind == Kind::refused);
+    CHECK(mentions(occupations.stop({}, minute(-5)),  // No data of it are in memory.
+                   "is not after the start of the set-up at No.0, 2026-03-14T08:10:00.0Z"));
     CHECK(occupations.stop({}, minute(10)).kind == Kind::refused);
     CHECK(occupations.setup(minute(10)).kind == Kind::refused);
     CHECK(occupations.setup(minute(15)).kind == Kind::done);

@@ -55,6 +55,8 @@ TEST_CASE(
                StartsWith("8 stations; u is 1.5 to 2.0 mGal, not tested"));
     for (StationValue& station : result.stations) station.u_gravity.reset();
     CHECK_THAT(answer(result, all_good(result)), ContainsSubstring("do not show how well"));
+    result.stations.resize(1);
+    CHECK_THAT(answer(result, all_good(result)), StartsWith("One station; this model"));
 }
 
 TEST_CASE("the answer names what to repeat, first where a station has no other reading to trust",
