@@ -39,6 +39,13 @@ std::vector<Contradiction> contradictions_in(const json& document, const char* m
 
 }  // namespace
 
+SoFarReader::SoFarReader(const std::vector<events::Event>& logged) {
+    for (const events::Event& event : logged)
+        if (event.type == "signal")
+            was_look_ =
+                event.details.contains("word") && event.details.at("word") == code_of(Word::look);
+}
+
 SoFar SoFarReader::read(std::string_view document) {
     SoFar so_far;
     const json read = json::parse(document, nullptr, false);
@@ -56,8 +63,8 @@ SoFar SoFarReader::read(std::string_view document) {
         if (!one.key.empty()) said_[one.key] = one.code;
     for (Contradiction& one : contradictions_in(read, "lesser_contradictions")) {
         const auto before = said_.find(one.key);
-        if (before == said_.end()) continue;
-        one.code = before->second;
+        if (before == said_.end() && !was_look_) continue;
+        if (before != said_.end()) one.code = before->second;
         so_far.contradictions.push_back(std::move(one));
     }
     return so_far;

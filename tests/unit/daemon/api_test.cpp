@@ -190,6 +190,13 @@ TEST_CASE("a contradiction stays after the stop until it is checked or the figur
         page.ask(post("/api/occupation/stop", R"({"at":"2026-03-14T08:20:00Z"})"));
         figures("lesser_contradictions", "references");
         CHECK(word() == R"("look")");
+        // The log has it after a restart.
+        const auto kept = [&](const std::string& last) {
+            const events::Event event{"signal", minute(21), {}, {}, {{"word", last}}};
+            return survey::SoFarReader({event}).read(page.gravity_so_far).contradictions.size();
+        };
+        CHECK(kept("look") == 1);
+        CHECK(kept("go") == 0);
         if (is_checked)
             page.ask(post("/api/occupation/checked", R"({"key":"20260314T081000Z"})"));
         else
