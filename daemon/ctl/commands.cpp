@@ -300,6 +300,19 @@ int show(const Client& client, const Arguments& arguments, const std::string& pa
     return kDone;
 }
 
+/// Shows the gravity so far, and what the signal asks.
+int show_survey(const Client& client, const Arguments& arguments) {
+    const int done = show(client, arguments, "/api/survey", survey_text);
+    if (done != kDone || arguments.json) return done;
+    const auto answer = accepted(answer_of(client.get("/api/rows")));
+    if (!answer) return kRefused;
+    json asked = json::array();
+    for (const json& row : answer->at("rows"))
+        if (row.at("label") == "signal" || row.at("label") == "commands") asked.push_back(row);
+    if (asked.size() > 1) print(status_screen({{"rows", asked}}, wants_colour()));
+    return kDone;
+}
+
 }  // namespace
 
 int run_command(const std::string& command, const Arguments& arguments) {
@@ -318,7 +331,7 @@ int run_command(const std::string& command, const Arguments& arguments) {
         return kDone;
     }
     if (command == "sites") return show(client, arguments, "/api/sites", site_table);
-    if (command == "survey") return show(client, arguments, "/api/survey", survey_text);
+    if (command == "survey") return show_survey(client, arguments);
     if (command == "list") return show(client, arguments, "/api/occupations", occupation_table);
     if (command == "checked")
         return change(client, arguments, "/api/occupation/checked", json::object());

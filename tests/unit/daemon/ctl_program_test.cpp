@@ -50,8 +50,10 @@ Run run(const std::string& arguments) {
 
 /// The HTTP interface of a daemon without the rest of the daemon.
 struct FakeDaemon {
-    explicit FakeDaemon(Status::Level level = Status::Level::good, UtcTime last = minute(60)) {
+    explicit FakeDaemon(Status::Level level = Status::Level::good, UtcTime last = minute(60),
+                        const std::vector<text::Message>& troubles = {}) {
         recorder.last = last;
+        status.sensor_troubles = troubles;
         status.level = level;
         status.verdict.state = verdict::State::stable;
         status.now = status.last_sample.emplace(last);
@@ -95,6 +97,15 @@ TEST_CASE("the exit code of status is that of a monitoring plugin", "[daemon][ct
     CHECK(run("--url http://127.0.0.1:1 status").exit == 3);
     CHECK(run("status --bogus").exit == 3);
     CHECK(run("--url ftp://127.0.0.1 status").exit == 3);
+}
+
+TEST_CASE("with LOOK status and survey have the commands that answer it", "[daemon][ctl]") {
+    CHECK_FALSE(has(FakeDaemon().ctl("survey"), "signal"));
+    const FakeDaemon daemon(Status::Level::good, minute(60), {"the x axis is dead"});
+    for (const char* command : {"status", "survey"}) {
+        const auto screen = daemon.ctl(command);
+        CHECK(has(screen, "signal       LOOK: the x axis is dead\ncommands     a351ctl checked\n"));
+    }
 }
 
 TEST_CASE("a terminal that takes no output is not a good state", "[daemon][ctl]") {
