@@ -40,6 +40,11 @@ void run(const RetimeOptions& options) {
             absent.last > absent.first ? fmt::format(" to {}", absent.last) : "",
             absent.before.filename().string(), absent.after.filename().string());
     }
+    if (report.unsynchronised_runs > 0)
+        std::cerr << fmt::format(
+            "a351-correct: in {} of {} runs the host's clock was never synchronised: nothing corrects "
+            "their times\n",
+            report.unsynchronised_runs, report.counters.sessions);
     std::cout << fmt::format(
         "{}: {} records of {} runs from {} journal segments; {} frames, {} gaps, {} samples "
         "missing\n",

@@ -180,6 +180,11 @@ void Retiming::observe(std::int64_t index, RawTime arrival) {
     if (!is_second_pass_) runs_.back().hindsight.observe(index, arrival);
 }
 
+std::size_t Retiming::unsynchronised_runs() const {
+    return static_cast<std::size_t>(std::ranges::count_if(
+        runs_, [this](const Run& run) { return !histories_.at(run.boot_id).is_synchronised(); }));
+}
+
 std::optional<UtcTime> Retiming::time_of(const journal::SessionId& session, std::int64_t index,
                                          UtcTime near) const {
     std::optional<UtcTime> nearest;
@@ -245,6 +250,7 @@ RetimeReport retime(files::FileLayer& files, const fs::path& root, const fs::pat
         gather(recording, retiming);
         Archives archives(files, partial / "archive");
         const auto segments = write(recording, retiming, archives, report);
+        report.unsynchronised_runs = retiming.unsynchronised_runs();
         write_events(files, root, partial, retiming);
         metadata(root, partial, segments);
         files.rename(partial, out);

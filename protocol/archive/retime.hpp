@@ -62,6 +62,10 @@ public:
     [[nodiscard]] std::optional<UtcTime> time_of(const journal::SessionId& session,
                                                  std::int64_t index, UtcTime near) const;
 
+    /// Returns the runs during which the host's clock was never synchronised, from its start to its
+    /// end.  Nothing corrects their times.
+    [[nodiscard]] std::size_t unsynchronised_runs() const;
+
 private:
     struct Run {
         journal::SessionId session;
@@ -101,6 +105,7 @@ struct RetimeReport {
     std::uint64_t records = 0;            ///< Records written.
     std::vector<journal::Damage> damage;  ///< Places of the journal whose chunks are lost.
     Counters counters;                    ///< Counters of the whole journal, read once.
+    std::size_t unsynchronised_runs = 0;  ///< Retiming::unsynchronised_runs().
 };
 
 /// Writes the archive of a data root again, with times computed afterwards: each second from the

@@ -88,6 +88,7 @@ TEST_CASE("a re-timed archive has the same samples, with the times that the whol
     const RetimeReport report = retime(posix_files(), root.path(), out);
     CHECK(report.counters.gaps == 1);
     CHECK(report.damage.empty());
+    CHECK(report.unsynchronised_runs == 0);
 
     const Decoded before = read_vertical(root.archive()), after = read_vertical(out / "archive");
     CHECK(after.counts == before.counts);
@@ -105,6 +106,12 @@ TEST_CASE("a re-timed archive has the same samples, with the times that the whol
     REQUIRE(events.size() == 1);
     CHECK(std::chrono::abs(events[0].utc - truth(500)) < Nanoseconds(500us));
     CHECK(events[0].index == 500);
+}
+
+TEST_CASE("re-timing counts the runs whose times nothing corrects", "[record][retime]") {
+    DataRoot root, parent;
+    root.write_journal(badly_timed_session(30'000));
+    CHECK(retime(posix_files(), root.path(), parent.path() / "same").unsynchronised_runs == 1);
 }
 
 TEST_CASE("re-timing writes a complete archive or nothing", "[record][retime]") {
