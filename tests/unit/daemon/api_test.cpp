@@ -139,6 +139,23 @@ TEST_CASE("a stop or a set-up that names another stay than the running one is re
     CHECK(page.recorder.log.size() == 3);
 }
 
+TEST_CASE("a stay that has ended gets a missed set-up by resume, setup and stop, as the page orders it",
+          "[daemon][page]") {
+    Page page;
+    page.recorder.last = minute(30);
+    page.ask(post("/api/occupation/start", R"({"site":"No.0","at":"2026-03-14T08:10:00Z"})"));
+    page.ask(post("/api/occupation/stop", R"({"at":"2026-03-14T08:25:00Z"})"));
+    const auto before = page.ask(get("/api/occupations"))["occupations"][0]["set_ups"];
+    const std::string stay = R"({"key":"20260314T081000Z","site":"No.0")";
+    page.ask(post("/api/occupation/resume", stay + "}"));
+    page.ask(post("/api/occupation/setup", stay + R"(,"at":"2026-03-14T08:17:20.000Z"})"));
+    page.ask(post("/api/occupation/stop", stay + R"(,"at":)" + before[0]["end"].dump() + "}"));
+    const auto after = page.ask(get("/api/occupations"))["occupations"][0]["set_ups"];
+    REQUIRE(after.size() == 2);
+    CHECK(is(after, "/0/end", R"("2026-03-14T08:17:20.000Z")"));
+    CHECK(is(after, "/1/end", before[0]["end"].dump()));
+}
+
 TEST_CASE("what was looked at is not shown again, also after a restart", "[daemon][page]") {
     Page page;
     page.status.now = page.status.last_sample.emplace(minute(30));
