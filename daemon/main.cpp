@@ -301,7 +301,7 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
         store.set_day_end(occupations.day_end());
     };
     if (occupations.running() || !occupations.list().empty()) note_change();
-    survey::SoFarReader reader(logged);
+    survey::SoFarReader reader;
     const auto so_far = [&] { return reader.read(gravity.document()); };
     survey::SignalLog signal_log(occupations, live, [&](const auto& event) { store.note(event); });
     survey::Word word = survey::Word::no_data;  // The page's thread uses it.

@@ -77,8 +77,8 @@ std::vector<std::string> unused_priors(const Priors& priors,
 
 void set_prior(Priors& priors, std::string_view origin, std::string_view name, Prior prior) {
     if (!may_have_prior(name))
-        throw InputError(fmt::format("{} = {}: no such coefficient; allowed: {}", origin, name,
-                                     text::joined(prior_names())));
+        throw InputError(fmt::format("{} = {}: no such coefficient; allowed: {}, scale INSTRUMENT", origin,
+                                     name, text::joined(prior_names())));
     if (!is_in_range(name, prior))
         throw InputError(fmt::format("{} = {} {} {}: out of range; allowed: {}", origin, name,
                                      text::shortest(prior.mean), text::shortest(prior.sd),

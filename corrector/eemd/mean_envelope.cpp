@@ -19,7 +19,6 @@ constexpr std::size_t stride(std::size_t knots) {
 MeanEnvelope::MeanEnvelope(std::size_t most_knots)
     : storage_(kArrays * stride(most_knots)), arrays_{} {
     const auto array = [&](std::size_t i) { return storage_.data() + i * stride(most_knots); };
-    // Pivot, coupled and reduced are in the memory of the mean.
     arrays_ = {array(0), array(1), array(2), array(3), array(4), array(5), array(6), array(7)};
 }
 

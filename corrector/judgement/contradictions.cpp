@@ -20,6 +20,12 @@ using reading::FindingKind;
 /// Sources: the prior of whole_day::DayModel; four is a choice.
 constexpr double kUsualPlacement_mgal = 1.2, kUsualWeight = 4.0;
 
+/// Least ratio of the contradictions that are added.
+struct Limit {
+    double ratio = kContradictionRatio;
+    bool is_lesser = false;
+};
+
 Contradiction about(const reading::SurveyRow& row, std::string code, text::Message text,
                     bool is_lesser = false) {
     return {std::move(code), row.site, row.occupation, row.key, std::move(text), is_lesser};
@@ -98,7 +104,8 @@ std::optional<double> ratio_of(const model::CorrectedRow& row) {
     return row.studentised_residual;
 }
 
-void add_references(std::vector<Contradiction>& all, const model::SurveyCorrection& result) {
+void add_references(std::vector<Contradiction>& all, const model::SurveyCorrection& result,
+                    const Limit& limit) {
     std::vector<std::string> known;  // Sites with a reference in the fit.
     double largest = 0.0;
     for (const model::CorrectedRow& row : result.rows) {
@@ -109,7 +116,12 @@ void add_references(std::vector<Contradiction>& all, const model::SurveyCorrecti
     }
     for (const model::CorrectedRow& row : result.rows) {
         const auto ratio = ratio_of(row);
-        if (!ratio || std::abs(*ratio) <= kLesserRatio || is_named(all, row.row)) continue;
+        if (!ratio || std::abs(*ratio) <= kLesserRatio) continue;
+        if ((known.size() == 2 ? largest : std::abs(*ratio)) <= limit.ratio) continue;
+        if (is_named(all, row.row)) {
+            if (known.size() == 2) return;
+            continue;
+        }
         const double off_mgal =
             (*row.as<model::WholeDayRow>()->left_out - *row.row.reference).value();
         all.push_back(
@@ -120,7 +132,7 @@ void add_references(std::vector<Contradiction>& all, const model::SurveyCorrecti
                             "name or reference; read a third known benchmark",
                             known[0], known[1], size_of(off_mgal))
                       : off_reference(row.row, off_mgal),
-                  (known.size() == 2 ? largest : std::abs(*ratio)) <= kContradictionRatio));
+                  limit.is_lesser));
         if (known.size() == 2) return;  // The other one says the same.
     }
 }
@@ -142,7 +154,7 @@ double placement_without(const std::vector<Closure>& pairs, const Closure& judge
 }
 
 void add_set_ups(std::vector<Contradiction>& all, const model::SurveyCorrection& result,
-                 const std::string& running_key) {
+                 const std::string& running_key, const Limit& limit) {
     std::vector<Closure> pairs = close_stations(result);
     std::erase_if(pairs, [](const Closure& pair) { return pair.drift_mgal_per_h.has_value(); });
     for (const Closure& pair : pairs) {
@@ -150,7 +162,7 @@ void add_set_ups(std::vector<Contradiction>& all, const model::SurveyCorrection&
         const double difference_mgal = std::abs(pair.after_all.value());
         const double expected_mgal =
             std::numbers::sqrt2 * placement_without(pairs, pair, result.rows);
-        if (difference_mgal <= kLesserRatio * expected_mgal || is_named(all, row)) continue;
+        if (difference_mgal <= limit.ratio * expected_mgal || is_named(all, row)) continue;
         all.push_back(about(
             row, "set_ups",
             text::message("{} and {} differ by {} mGal, {} times what their placement allows: ",
@@ -160,7 +172,7 @@ void add_set_ups(std::vector<Contradiction>& all, const model::SurveyCorrection&
                 (row.key == running_key && !running_key.empty()
                      ? text::message("lift the box, set it down level, and add a set-up")
                      : text::message("read it again if you pass there")),
-            difference_mgal <= kContradictionRatio * expected_mgal));
+            limit.is_lesser));
     }
 }
 
@@ -170,8 +182,11 @@ std::vector<Contradiction> contradictions(const model::SurveyCorrection& result,
                                           const std::string& running_key) {
     std::vector<Contradiction> all;
     add_findings(all, result);
-    add_references(all, result);
-    add_set_ups(all, result, running_key);
+    // A stay is named once.  A lesser contradiction hides no greater one.
+    for (const Limit& limit : {Limit{}, Limit{kLesserRatio, true}}) {
+        add_references(all, result, limit);
+        add_set_ups(all, result, running_key, limit);
+    }
     return all;
 }
 

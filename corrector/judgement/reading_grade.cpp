@@ -64,12 +64,16 @@ void add_residual(ReadingGrade& reading, const model::CorrectedRow& row, bool is
     const double ratio = is_left_out ? row.studentised_residual.value_or(0.0)
                                      : row.residual->value() / row.u_corrected->value();
     if (std::abs(ratio) <= kCareRatio) return;
+    const auto* const day = row.as<model::WholeDayRow>();
+    const double off_mgal = is_left_out && day != nullptr && day->left_out && row.row.reference
+                                ? (*day->left_out - *row.row.reference).value()
+                                : ratio * row.u_corrected->value();
     add(reading, std::abs(ratio) > kRepeatRatio ? Grade::repeat : Grade::care,
         {"off_reference",
-         {ratio * row.u_corrected->value(), std::abs(ratio)},
+         {off_mgal, std::abs(ratio)},
          text::message(
              "{} mGal {}{}, {} times the uncertainty expected if name and reference are right",
-             text::fixed(std::abs(ratio) * row.u_corrected->value(), 1),
+             text::fixed(std::abs(off_mgal), 1),
              ratio > 0.0 ? text::message("above its reference")
                          : text::message("below its reference"),
              is_left_out ? text::message(" when its station is left out") : text::Message(),

@@ -234,12 +234,14 @@ model::SurveyCorrection correct_and_search(const SearchedSurvey& survey,
         Search found = search(result, survey, options.priors, far);
         if (far.empty()) return found;
         model::SurveyCorrection fit;
-        // A coefficient that is held can push another one away from its prior.
+        // A coefficient that is held can push another one away from its prior.  Mistakes may be the
+        // cause instead; they are put right first.
         for (std::size_t held_count = 0; held_count != far.size();) {
             held_count = far.size();
             model::SurveyOptions with_held = options;
             with_held.priors = held(options.priors, far);
             fit = model::correct_with_calibration(survey.rows, with_held, survey.day);
+            if (found.amended) break;
             for (const model::Coefficient& term : far_terms(fit)) {
                 if (std::ranges::count(far, term.name, &model::Coefficient::name) > 0) continue;
                 found.findings.push_back(far_term(fit, term, options.priors));

@@ -181,8 +181,4 @@ Eigen::MatrixXd NoiseCovariance::at(const DayNoise& noise) const {
     return covariance;
 }
 
-Eigen::MatrixXd noise_covariance(const std::vector<reading::DayBin>& bins, const DayNoise& noise) {
-    return NoiseCovariance(bins).at(noise);
-}
-
 }  // namespace a351::corrector::whole_day

@@ -147,8 +147,4 @@ private:
     Eigen::MatrixXd turns_;  ///< (n, turns) Standard deviation of the error after each turn, mGal.
 };
 
-/// Returns NoiseCovariance::at() of one noise.
-[[nodiscard]] Eigen::MatrixXd noise_covariance(const std::vector<reading::DayBin>& bins,
-                                               const DayNoise& noise);
-
 }  // namespace a351::corrector::whole_day

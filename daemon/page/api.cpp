@@ -253,7 +253,8 @@ Response Api::change(std::string_view path, const std::string& body) {
         const auto order = parse_order(body, {"site", "operator", "note", "at", "set_ups", "face"});
         if (order.site.empty()) throw InputError("body: key site is missing");
         outcome = occupations.start(order.site, order.remark, order.at, order.set_ups, order.face);
-        if (outcome.kind == survey::Outcome::Kind::refused) outcome.message += move_since_start();
+        if (outcome.kind == survey::Outcome::Kind::refused && occupations.running())
+            outcome.message += move_since_start();
     } else if (path == "/api/occupation/stop") {
         const auto order = parse_order(body, {"key", "site", "operator", "note", "at"});
         if (const auto other = other_stay(order, occupations.running()); !other.empty())

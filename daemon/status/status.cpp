@@ -65,7 +65,7 @@ void assess_rate(Status& status) {
     // Without the rate, which varies: the log would say it again each second.
     status.warn(text::message(
         "the sample rate differs from declared_rate_hz by more than {} ppm plus its uncertainty; "
-        "the row rate has the measured one; change declared_rate_hz only between deployments",
+        "the measured rate is in the row rate; change declared_rate_hz only between deployments",
         kTolerable_ppm));
 }
 
@@ -243,7 +243,7 @@ void assess(Status& status) {
     }
     if (status.counters.records_withheld > 0) {
         status.warn(
-            text::message("the host clock was not set: new records are in the journal only; "
+            text::message("the host clock was not set: some records are in the journal only; "
                           "synchronise the clock, then run a351-correct retime"));
     }
     assess_battery(status);

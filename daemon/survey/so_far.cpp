@@ -39,13 +39,6 @@ std::vector<Contradiction> contradictions_in(const json& document, const char* m
 
 }  // namespace
 
-SoFarReader::SoFarReader(const std::vector<events::Event>& logged) {
-    for (const events::Event& event : logged)
-        if (event.type == "signal")
-            was_look_ =
-                event.details.contains("word") && event.details.at("word") == code_of(Word::look);
-}
-
 SoFar SoFarReader::read(std::string_view document) {
     SoFar so_far;
     const json read = json::parse(document, nullptr, false);
@@ -59,14 +52,17 @@ SoFar SoFarReader::read(std::string_view document) {
             one.missing = text::parse_message(stay.at("missing_parts"), "");
     }
     so_far.contradictions = contradictions_in(read, "contradictions");
+    std::map<std::string, std::string> still;
     for (const Contradiction& one : so_far.contradictions)
-        if (!one.key.empty()) said_[one.key] = one.code;
+        if (!one.key.empty()) still[one.key] = one.code;
     for (Contradiction& one : contradictions_in(read, "lesser_contradictions")) {
         const auto before = said_.find(one.key);
-        if (before == said_.end() && !was_look_) continue;
-        if (before != said_.end()) one.code = before->second;
+        if (before == said_.end()) continue;
+        still.insert(*before);
+        one.code = before->second;
         so_far.contradictions.push_back(std::move(one));
     }
+    if (read.contains("lesser_contradictions")) said_ = std::move(still);  // New figures.
     return so_far;
 }
 

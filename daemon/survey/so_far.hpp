@@ -10,7 +10,6 @@
 
 #include "daemon/survey/signal.hpp"
 #include "protocol/core/units.hpp"
-#include "protocol/events/event_log.hpp"
 #include "protocol/text/message.hpp"
 
 namespace a351::daemon::survey {
@@ -35,16 +34,11 @@ struct SoFar {
 /// the page's thread owns it.
 class SoFarReader {
 public:
-    /// @param logged  the event log so far: if its last word of the signal is LOOK, lesser contradictions
-    ///                stay from the last run of the daemon too.
-    explicit SoFarReader(const std::vector<events::Event>& logged = {});
-
     /// Members that are not as expected are left out.
     [[nodiscard]] SoFar read(std::string_view document);
 
 private:
-    bool was_look_ = false;                    ///< At the end of the last run.
-    std::map<std::string, std::string> said_;  ///< Code of the last contradiction of each stay.
+    std::map<std::string, std::string> said_;  ///< Codes of the contradictions that stay, by stay.
 };
 
 }  // namespace a351::daemon::survey

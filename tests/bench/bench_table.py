@@ -75,7 +75,7 @@ PROMISES = [
     *((f"{work}, / plain arithmetic", "no limit", rf"^{work} +\S+ \(.*?\) +(\S+ \(.*?\))")
       for work in ("survey day, t-rate-drift, no figures", "survey day, auto, no figures", "survey day, auto, report and figures",
                    "record of 24 h at 50 Hz, page and figures")),
-    ("programs compared with earlier ones", "kept", r"^speed.py: (\w+)"),
+    ("largest ratio to the earlier programs (--beside)", "<= 1.05", r"^largest ratio to the earlier program: ([\d.]+)"),
     ("same input, same bytes", "kept", r"^same_bytes.py: (\w+)"),
     ("archive and StationXML open in ObsPy", "kept", r"^obspy_reads.py: (\w+)"),
     ("ringserver to slarchive, byte by byte", "kept", r"^ringserver.py: (\w+)"),

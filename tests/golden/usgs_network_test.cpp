@@ -207,6 +207,7 @@ TEST_CASE("the far end of a line of 198 mGal is off by the meter's scale, and u 
     const Absolute value{reference, absolute_values("2017-12").at("rg57").u_mgal};
     CHECK(held.u_mgal < 0.013);
     CHECK(free.u_mgal == Approx(std::hypot(held.u_mgal, 1e-4 * kRange_mgal)).epsilon(0.01));
+    CHECK(far_end(adjustment::kGravimeterScale).u_mgal == Approx(0.0998).margin(0.0001));
     CHECK(free.ratio(value) < 2.0);
     CHECK(free.error_mgal == Approx(held.error_mgal).epsilon(0.01));
 }

@@ -116,7 +116,7 @@ def bill_of_materials(document, debs):
         own = entries[f"SPDXRef-{package}"]
         checksum = run("sha256sum", deb).stdout.split()[0]
         demand(f"{package}: the document has the checksum of its file", own["checksums"][0]["checksumValue"] == checksum)
-        depends = set(re.findall(r"lib[^ ,]+", field(deb, "Depends")))
+        depends = set(re.findall(r"z?lib[^ ,]+", field(deb, "Depends")))
         print(package, related[package])
         # A dependency may be a name that the library's package only provides.
         linked = {name if is_installed(name) else re.sub("-fmt.*", "", name) for name in depends}

@@ -137,8 +137,16 @@ export class OccupationPanel {
     /** Begins a set-up in the last stay, which has ended: it is resumed, and stopped when it was stopped. */
     async divide({ key, site, end }, at) {
         const stay = { key, site };
-        return await this.change("/api/occupation/resume", stay) && await this.order("/api/occupation/setup", { ...stay, at })
-            && this.change("/api/occupation/stop", { ...stay, at: end });
+        if (!await this.change("/api/occupation/resume", stay)) return false;
+        const is_begun = await this.order("/api/occupation/setup", { ...stay, at });
+        const said = by_id("answer").textContent;
+        // The stay had ended, so it must not run on, whatever became of the set-up.
+        const is_stopped = await this.change("/api/occupation/stop", { ...stay, at: end });
+        if (is_stopped && !is_begun) {
+            by_id("answer").classList.add("error");
+            set_text("answer", said);
+        }
+        return is_begun && is_stopped;
     }
 
     /** Shows why an order was not carried out. */

@@ -69,6 +69,22 @@ TEST_CASE("known stations contradict from four uncertainties on; of two neither 
     CHECK(said(three).empty());
 }
 
+TEST_CASE("a lesser contradiction hides no greater one of its stay", "[contradiction]") {
+    SurveyCorrection references = day({"A", "B", "B", "C"}, 0.0);
+    references.rows[1].studentised_residual = 3.5;
+    references.rows[2].studentised_residual = 4.5;
+    CHECK(said(references).starts_with("K2 B (1) differs"));
+    SurveyCorrection both = day({"A", "B", "B", "C"}, 0.0);
+    both.rows[1].studentised_residual = 3.2;
+    both.rows[2].corrected = MilliGal(12.0);
+    CHECK(said(both).starts_with("K2 B (1a) and B (1b) differ by 12.0 mGal"));
+    SurveyCorrection three = day({"A", "B", "B", "B"}, 0.0);
+    three.rows[2].corrected = MilliGal(6.0);
+    three.rows[3].corrected = MilliGal(-6.0);
+    CHECK(said(three).starts_with("K"));
+    CHECK(contradictions(three).size() == 1);
+}
+
 TEST_CASE("two stations that contradict each other enlarge all uncertainties, one of many does not",
           "[contradiction]") {
     CHECK(doubt_factor(day({"A", "B"}, 0.5)) == 1.0);

@@ -50,7 +50,7 @@ OccupationRows repeated(std::size_t set_ups, const whole_day::DayNoise& noise, s
         row.temperature = DegC(42.5);
         read.rows.push_back(row);
     }
-    const linear_algebra::Cholesky factor(whole_day::noise_covariance(read.day->bins, noise));
+    const linear_algebra::Cholesky factor(whole_day::NoiseCovariance(read.day->bins).at(noise));
     Eigen::VectorXd draws(std::ssize(read.day->bins));
     for (double& draw : draws) draw = normal(random);
     const Eigen::VectorXd errors = factor.lower() * draws;

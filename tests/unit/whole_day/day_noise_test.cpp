@@ -28,19 +28,24 @@ TEST_CASE("the filter whitens like the dense covariance", "[day]") {
     Eigen::MatrixXd white = columns;
     const double log_determinant = whiten(bins, noise, white);
 
-    const Eigen::LLT<Eigen::MatrixXd> dense(noise_covariance(bins, noise));
+    const Eigen::LLT<Eigen::MatrixXd> dense(NoiseCovariance(bins).at(noise));
     const Eigen::MatrixXd expected = columns.transpose() * dense.solve(columns);
     CHECK((white.transpose() * white - expected).norm() < 1e-9 * expected.norm());
     CHECK(log_determinant ==
           Approx(2.0 * dense.matrixLLT().diagonal().array().log().sum()).epsilon(1e-12));
 }
 
-TEST_CASE("the filter has the same bits with any number of lanes", "[day]") {
+TEMPLATE_TEST_CASE_SIG("the filter has the same bits with any number of lanes", "[day]",
+                       ((Eigen::Index kStates), kStates), 8, 16) {
+    if (fastest_filter<kStates>() == FilterBin<kStates>(with_two_lanes<kStates>)) {
+        WARN("this processor has one form of the filter");
+        return;
+    }
     Eigen::MatrixXd columns = Eigen::MatrixXd::Random(20, 6);
     columns.topRightCorner(10, 2).setZero();
-    const auto filtered = [&columns](FilterBin<8> filter) {
-        FilteredColumns<8> result(columns);
-        FilterStep<8> step;
+    const auto filtered = [&columns](FilterBin<kStates> filter) {
+        FilteredColumns<kStates> result(columns);
+        FilterStep<kStates> step;
         step.covariance.setIdentity();
         step.of_mean = -0.1;
         step.white = 0.3;
@@ -52,7 +57,7 @@ TEST_CASE("the filter has the same bits with any number of lanes", "[day]") {
         }
         return result.values;
     };
-    CHECK(filtered(fastest_filter<8>()) == filtered(with_two_lanes<8>));
+    CHECK(filtered(fastest_filter<kStates>()) == filtered(with_two_lanes<kStates>));
 }
 
 TEST_CASE("means of simulated flicker have the covariance of the bins", "[day]") {
@@ -65,7 +70,7 @@ TEST_CASE("means of simulated flicker have the covariance of the bins", "[day]")
             bins[b].times.push_back(UtcTime{} + from_seconds(2.0 * (kFirst.at(b) + i)));
         bins[b].time = UtcTime{} + from_seconds(2.0 * kFirst.at(b) + kSamples.at(b) - 1.0);
     }
-    const Eigen::MatrixXd expected = noise_covariance(bins, {0.0, 1.0, 0.0});
+    const Eigen::MatrixXd expected = NoiseCovariance(bins).at({0.0, 1.0, 0.0});
 
     // The processes are stepped by 0.25 s in a bin, and at once over the time between two bins.
     constexpr double kStep_s = 0.25;
@@ -107,7 +112,7 @@ TEST_CASE("flicker of the scale keeps its sign over a turn, and a turn leaves an
         bins[b].times = {bins[b].time};
     }
     const auto covariance = [&](double flicker_mgal, double on_scale) {
-        return noise_covariance(bins, {0.0, flicker_mgal, 1.0, on_scale});
+        return NoiseCovariance(bins).at({0.0, flicker_mgal, 1.0, on_scale});
     };
     // A bin of one sample has no length.  Rows have the sign of the face.
     const Eigen::MatrixXd turn = covariance(0.0, 0.0);

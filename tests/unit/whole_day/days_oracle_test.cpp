@@ -282,7 +282,7 @@ private:
         readings_.segment(begin, count) = scaled.col(0).cast<Real>();
         noise_.block(begin, begin, count, count) =
             (faces.asDiagonal() *
-             noise_covariance(survey.record->bins, problem.own_noise(days_.point, k)) *
+             NoiseCovariance(survey.record->bins).at(problem.own_noise(days_.point, k)) *
              faces.asDiagonal())
                 .cast<Real>();
         const auto column = [&](const std::string& name, const Eigen::VectorXd& values) {

@@ -81,7 +81,7 @@ std::pair<double, std::vector<double>> dense(const std::vector<DaySurvey>& surve
         const Eigen::MatrixXd scaled = problem.of(k).scaled(problem.part_of(point, k));
         y.segment(begin, count) = scaled.col(0);
         covariance.block(begin, begin, count, count) =
-            noise_covariance(survey.record->bins, problem.own_noise(point, k));
+            NoiseCovariance(survey.record->bins).at(problem.own_noise(point, k));
         const auto add = [&](const std::string& name, Eigen::Index column) {
             columns.emplace(name, Eigen::VectorXd::Zero(rows))
                 .first->second.segment(begin, count) += scaled.col(column + 1);
