@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <iostream>
@@ -63,7 +62,7 @@ void set_options(TableOptions& options, const std::vector<reading::SurveyRow>& r
     number_option("--datum-sd", survey.survey.network.datum_sd_mgal, adjustment::kLeastSd_mgal,
                   adjustment::kGreatestSd_mgal);
     double& reading_sd_mgal = survey.survey.priors.reading_sd_mgal;
-    if (std::ranges::none_of(rows, &std::string::empty, &reading::SurveyRow::instrument))
+    if (!rows.front().instrument.empty())
         reading_sd_mgal = adjustment::kGravimeterReadingSd_mgal;
     reading_sd_mgal = options.reading_sd_mgal.value_or(reading_sd_mgal);
     number_option("--reading-sd", reading_sd_mgal, adjustment::kLeastSd_mgal,
@@ -160,7 +159,7 @@ void add_table_command(CLI::App& program) {
                      "network: standard deviation of a reference that is held");
     add_option(command, "--reading-sd", "MGAL", options->reading_sd_mgal,
                "Standard deviation of a reading: its weight against priors and datum "
-               "(default: 2, or 0.01 if all rows name an instrument)");
+               "(default: 2, or 0.01 for gravimeters: column instrument)");
     add_with_default(command, "--drift-degree", "N", correction.network.drift_degree,
                      "network: degree of the polynomial in time that describes the drift, 0-3")
         ->check(CLI::Range(0, model::kGreatestDriftDegree));

@@ -27,7 +27,7 @@ struct Contradiction {
 inline constexpr double kContradictionRatio = 4.0;
 
 /// Ratio above which a contradiction that was shown stays.  Reason: the ratio changes a little with each
-/// further sample, and up to here the grade of the reading is `repeat`.
+/// further sample, and above this the grade of the reading is `repeat`.
 inline constexpr double kLesserRatio = kRepeatRatio;
 
 /// Returns the contradictions of a survey so far, the newest last:

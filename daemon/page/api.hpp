@@ -43,7 +43,7 @@ struct ApiSources {
     Degrees latitude = {}, longitude = {};  ///< Position of the base, where a day begins.
     std::function<std::vector<events::Event>()> events;  ///< The whole event log, in file order.
     std::function<std::string()> gravity_so_far = {};    ///< Body of GET /api/survey.
-    std::function<survey::SoFar()> so_far = {};          ///< What was read from it.
+    std::function<survey::SoFar()> so_far = {};          ///< The same, read.
     std::function<Download()> bundle = {};               ///< File of GET /api/bundle.
     std::function<void()> changing = {};                 ///< Called before each change,
     std::function<void()> changed = {};                  ///< and after each that is on disk.

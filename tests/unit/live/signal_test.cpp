@@ -73,7 +73,7 @@ TEST_CASE("the sentence has the reason and what to do, with two buttons at most"
     };
     CHECK(sentence(State::no_data, {}) ==
           "No values arrive: why. Check the sensor's plug and its power supply.");
-    verdict::Verdict filling;  // Of filters, at a start or after a gap.
+    verdict::Verdict filling;  // The filters fill at a start and after a gap.
     filling.reasons.resize(1);
     CHECK(signal_of(filling, {"why"}, {}, "", {}).sentence ==
           "Values arrive. The signal needs 20 s of them without a gap.");
