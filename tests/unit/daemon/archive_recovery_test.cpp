@@ -3,7 +3,7 @@
 #include <fstream>
 
 #include "protocol/text/text_file.hpp"
-#include "tests/unit/daemon/forgetful_files.hpp"
+#include "tests/unit/files/forgetful_files.hpp"
 #include "tests/unit/daemon/stepped_rig.hpp"
 #include "tests/unit/files/failing_files.hpp"
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "tests/unit/daemon/forgetful_files.hpp"
+#include "tests/unit/files/forgetful_files.hpp"
 #include "tests/unit/daemon/store_rig.hpp"
 
 using namespace a351;

@@ -10,6 +10,7 @@
 
 #include "tests/support/long_tests.hpp"
 #include "tests/unit/files/failing_files.hpp"
+#include "tests/unit/files/forgetful_files.hpp"
 #include "tests/unit/journal/segment_fixture.hpp"
 
 using namespace a351::files;
@@ -218,6 +219,42 @@ TEST_CASE_METHOD(Fixture, "whichever file operation fails, compressing leaves a 
         CHECK(has_failed == (n <= files.operations()));
         for (const auto& file : std::filesystem::directory_iterator(directory_.path()))
             std::filesystem::remove(file);
+    }
+}
+
+TEST_CASE_METHOD(Fixture, "a power cut at any moment of compressing leaves a readable segment",
+                 "[record][journal][power_cut]") {
+    constexpr int kCuts = 20;  // at each operation; a cut loses half of what was not synced
+    const auto root = directory_.path() / "root", found = directory_.path() / "found";
+    std::mt19937_64 random(7);
+    bool is_whole = false;
+    for (int n = 0; !is_whole; ++n) {
+        std::filesystem::create_directory(root);
+        const auto segment = root / file_.filename();
+        test::ForgetfulFiles files;
+        {
+            const auto file = files.create(segment);
+            file->append(whole_);
+            file->sync();
+        }
+        files.sync_directory(root);
+        files.operations_left = n;
+        try {
+            compress_segment(files, segment);
+            is_whole = true;
+        } catch (const std::system_error&) {
+        }
+        for (int cut = 0; cut < kCuts; ++cut) {
+            files.cut(root, found, random);
+            const auto segments = segment_files(found);
+            INFO("after " << n << " operations");
+            REQUIRE(segments.size() == 1);
+            const Reading reading = read_all(segments[0]);
+            CHECK(reading.chunk_count == test::one_of_each().size());
+            CHECK_FALSE(reading.damage);
+            std::filesystem::remove_all(found);
+        }
+        std::filesystem::remove_all(root);
     }
 }
 
