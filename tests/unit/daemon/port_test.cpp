@@ -35,6 +35,10 @@ PortError::Kind kind_of_refusal(const PortAddress& address) {
     return PortError::Kind::absent;
 }
 
+std::ptrdiff_t open_files() {
+    return std::distance(std::filesystem::directory_iterator("/proc/self/fd"), {});
+}
+
 }  // namespace
 
 TEST_CASE("every byte value passes a port both ways", "[daemon][port]") {
@@ -114,7 +118,10 @@ TEST_CASE("a port is found through links, and a missing port and a wrong file ar
     CHECK(kind_of_refusal({directory.path() / "none", {}}) == PortError::Kind::absent);
     CHECK(kind_of_refusal({{}, UsbAddress{0xFFFF, 0xFFFF, "no such adapter"}}) ==
           PortError::Kind::absent);
+    // The recorder tries again every second, so a file that stays open would use them up.
+    const std::ptrdiff_t before = open_files();
     CHECK(kind_of_refusal({"/dev/null", {}}) == PortError::Kind::settings);
+    CHECK(open_files() == before);
 }
 
 TEST_CASE("the table of ports marks those that could be the sensor", "[port]") {

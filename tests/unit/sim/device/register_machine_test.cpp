@@ -40,6 +40,13 @@ TEST_CASE("damaged commands are skipped and the next one is understood",
         bench.machine.receive(bytes_of("02 00 0D"), bench.now, answers);
         CHECK(hex_of(answers) == mode);
     }
+    for (const std::string stray : {"12", "12 34", "12 34 56"}) {  // without a CR behind
+        CAPTURE(stray);
+        Bench bench;
+        std::vector<std::byte> answers;
+        bench.machine.receive(bytes_of(stray + " 02 00 0D"), bench.now, answers);
+        CHECK(hex_of(answers) == mode);
+    }
 }
 
 TEST_CASE("a partial command is forgotten after 100 ms", "[sim][register_machine]") {

@@ -11,6 +11,7 @@ using namespace a351::sim;
 using namespace a351;
 using namespace a351::sim::scenario;
 using namespace a351::sim::signal;
+using namespace std::chrono_literals;
 
 namespace {
 
@@ -144,7 +145,11 @@ TEST_CASE("each term of the truth agrees with its effect on the norm of the samp
 TEST_CASE("an ideal day's truth has tide and bias, and no error", "[sim][truth]") {
     const Scenario scenario = load_scenario("ideal");
     const auto plan = plan_survey(scenario, 3);
-    for (const SetUpTruth& mean : set_up_truth(scenario, plan, 3)) {
+    const auto ambient = scenario.ambient_knots();
+    const std::vector<SetUpTruth> truth = set_up_truth(scenario, plan, 3);
+    REQUIRE(truth.size() == plan.size());
+    for (std::size_t k = 0; k < truth.size(); ++k) {
+        const SetUpTruth& mean = truth[k];
         const auto term = [&mean](Term t) { return mean.terms_mgal[static_cast<std::size_t>(t)]; };
         CHECK(term(Term::bias) == Approx(1838.0));
         CHECK(std::abs(term(Term::tide)) < 0.3);
@@ -155,6 +160,12 @@ TEST_CASE("an ideal day's truth has tide and bias, and no error", "[sim][truth]"
         CHECK(errors_mgal == 0.0);
         CHECK(std::abs(mean.tilt_mgal) < 1e-9);
         CHECK(mean.rectification_mgal < 1e-7);
+        constexpr std::chrono::minutes kMargin{1};
+        double sum_degc = 0.0;
+        int count = 0;
+        for (UtcTime t = plan[k].start + kMargin; t < plan[k].end - kMargin; t += 1s, ++count)
+            sum_degc += ambient_at(ambient, t).value();
+        CHECK(mean.ambient_degc == Approx(sum_degc / count).margin(0.01));
     }
 }
 
