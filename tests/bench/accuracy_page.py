@@ -1,18 +1,18 @@
 """Brings figures of corrector/accuracy.md up to date: runs the command of a section and writes what it prints into the section.
 
-usage: accuracy_page.py [WORD...]    (A351_BIN, A351_TOOLS)
-Runs the commands of the sections whose headings contain one of the words; default: all, which takes a night.
 A section has a heading, sentences, a line `Command: ...`, and in a block the output of the bench without its lines for single days.
-A run replaces line and block.  A section with a table has figures of another program: it is left, and said.
+A run replaces line and block.  A section with a table has figures of an earlier program: it is left, and said.
 Date and commit are those of the run; the sources must be committed.
 """
 
 import datetime
+import os
 import pathlib
 import re
 import shlex
 import subprocess
-import sys
+
+from command_line import command_line
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
 PAGE = TOP / "corrector/accuracy.md"
@@ -24,22 +24,40 @@ def git(*arguments):
     return subprocess.run(["git", *arguments], cwd=TOP, capture_output=True, text=True, check=True).stdout.strip()
 
 
+def output_of(command):
+    """Runs a command, shows each line when it comes, and returns the lines."""
+    print(f"$ {command}", flush=True)
+    lines = []
+    with subprocess.Popen(shlex.split(command), cwd=TOP, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                          env={**os.environ, "PYTHONUNBUFFERED": "1"}) as bench:
+        for line in bench.stdout:
+            print(line, end="", flush=True)
+            lines.append(line.rstrip("\n"))
+        failure = bench.stderr.read()
+    # Status 1 is that of a promise that is not kept, and of a script that failed.
+    if bench.returncode not in (0, 1) or not lines or "Traceback" in failure:
+        raise SystemExit(f"{command} ended with {bench.returncode}: {failure[-400:]}")
+    return lines
+
+
 def measured(command, commit):
     """Returns the command line of a section with its date and commit, and below it the lines that are not of single days."""
-    done = subprocess.run(shlex.split(command), cwd=TOP, capture_output=True, text=True)
-    lines = [line for line in done.stdout.splitlines() if not SINGLE_DAY.match(line)]
-    # Status 1 is that of a promise that is not kept, and of a script that failed.
-    if done.returncode not in (0, 1) or not lines or "Traceback" in done.stderr:
-        raise SystemExit(f"{command} ended with {done.returncode}: {done.stderr[-400:]}")
+    lines = [line for line in output_of(command) if not SINGLE_DAY.match(line)]
     return "\n".join([f"Command: `{command}`, {datetime.date.today()}, commit {commit}", "", "```", *lines, "```", ""])
 
 
+line = command_line(__doc__, "accuracy_page.py 'Two set-ups'", has_promises=False)
+line.add_argument("words", metavar="WORD", nargs="*",
+                  help="only the sections whose headings contain one of the words; all of them take a night")
+words = line.parse_args().words
+headings = [heading for heading in re.findall(r"^## (.*)$", PAGE.read_text(), re.MULTILINE)
+            if not words or any(word in heading for word in words)]
+if not headings:
+    line.error(f"{PAGE.name} has no heading with {' or '.join(words)}")
 if changed := git("status", "--porcelain", "--", "corrector", "protocol", "sim", "tests/bench").replace("M corrector/accuracy.md", "").strip():
     raise SystemExit(f"commit first: {changed}")
 commit = git("rev-parse", "--short=8", "HEAD")
-for heading in re.findall(r"^## (.*)$", PAGE.read_text(), re.MULTILINE):
-    if len(sys.argv) > 1 and not any(word in heading for word in sys.argv[1:]):
-        continue
+for heading in headings:
     before, begin, section = PAGE.read_text().partition(f"## {heading}\n")
     own = section[:section.find("\n## ") + 1 or None]
     if "\n| --- |" in own:
@@ -48,4 +66,4 @@ for heading in re.findall(r"^## (.*)$", PAGE.read_text(), re.MULTILINE):
         now = measured(command[1], commit)
         before, begin, section = PAGE.read_text().partition(f"## {heading}\n")  # The run took long: others may have written.
         PAGE.write_text(before + begin + COMMAND.sub(lambda _: now, section, count=1))
-        print(f"{heading}: {command[1]}", flush=True)
+        print(f"{heading}: written", flush=True)

@@ -1,36 +1,31 @@
 """Runs all benchmarks one after another and prints a table of promised and measured values.
 
-    bench_table.py                 all benchmarks, as the target `bench`; takes a quarter of an hour
-    bench_table.py --days 20       with 20 simulated days for each scenario instead of one; takes half an hour more.
-                                   The promises are for the mean of 20 days.
-    bench_table.py --read FILE     only the table, from the output of an earlier run
-    bench_table.py --beside FOLDER compares with the a351-correct of an earlier commit in FOLDER: speed.py
-
-Absolute times are those of this machine; ratios compare two measurements of the same run.
+It is the target `bench`, and takes a quarter of an hour.  No time is promised in seconds: a ratio compares two measurements of the
+same run, so that another machine has about the same one.
 """
 
-import argparse
 import os
 import pathlib
 import re
 import subprocess
 import sys
 
+from command_line import at_least, command_line
+from simulated_units import TOOLS
+from programs import BIN, TOP
+
 HERE = pathlib.Path(__file__).resolve().parent
-TOP = HERE.parents[1]
-TOOLS = pathlib.Path(os.environ.get("A351_TOOLS", TOP / "build/release/tests"))
-BIN = pathlib.Path(os.environ.get("A351_BIN", TOP / "build/release/bin"))
 GOLDEN = TOP / "tests" / "golden" / "tsukuba"
 
 FIRST_SEED = 5001  # Seeds from 5001 on were not used while the corrector was developed: survey_accuracy.py.
 
-arguments = argparse.ArgumentParser(usage=__doc__, add_help=False)
-arguments.add_argument("--days", type=int, default=1)
-arguments.add_argument("--read", type=pathlib.Path)
-arguments.add_argument("--beside", type=pathlib.Path)
-options = arguments.parse_args()
-if options.days < 1:
-    arguments.error(f"--days = {options.days}: allowed: 1 or more")
+line = command_line(__doc__, "bench_table.py --days 20", has_promises=False)
+line.add_argument("--days", metavar="N", type=at_least(1), default=1,
+                  help="simulated days for each scenario; 20, for which the promises are made, take half an hour more")
+line.add_argument("--read", metavar="FILE", type=pathlib.Path, help="prints only the table, from the output of an earlier run")
+line.add_argument("--beside", metavar="FOLDER", type=pathlib.Path,
+                  help="folder with the a351-correct of an earlier commit, for speed.py")
+options = line.parse_args()
 
 OUTCOMES = {0: "kept", 77: "skipped"}  # Exit status of a system test: tests/system/programs.py.
 PYTHON = [sys.executable]
@@ -64,12 +59,11 @@ PROMISES = [
     ("time stamps behind a 16 ms timer, p99 after 600 s, ms", "<= 1", r"^16 ms timer +p50 [\d.]+ p99 ([\d.]+)"),
     ("  behind a 1 ms timer", "<= 0.3", r"^1 ms timer +p50 [\d.]+ p99 ([\d.]+)"),
     ("  the stated uncertainty covers", ">= 95 %", r"^16 ms, busy host .* covers ([\d.]+ %)"),
-    ("daemon at 50 Hz, share of a core", "< 1 %", r"share of one core +([\d.]+ %)"),
+    ("daemon at 50 Hz, processor time of a minute / arithmetic", "no limit", r"a minute / plain arithmetic +([\d.]+)"),
     ("daemon at 50 Hz, peak memory", "< 60 MB", r"peak memory +([\d.]+ MB)"),
-    ("survey day at 1000x with correction", "< 60 s", r"survey day at 1000x: time with correction +([\d.]+ s)"),
-    ("  mean rate, of 50 000 frames/s", ">= 95 %", r"mean rate of nominal +([\d.]+ %)"),
+    ("survey day at 1000x, mean rate of 50 000 frames/s", "no limit", r"mean rate of nominal +([\d.]+ %)"),
     ("EEMD 5400 x 160, times faster than libeemd, same run", ">= 7 (floor 4)", r"^5400 x 160 +[\d.]+ +[\d.]+ +([\d.]+ times)"),
-    ("  time per sample and sift, ns", "1.0", r"^5400 x 160 +[\d.]+ +([\d.]+)"),
+    ("  the same, / plain arithmetic", "no limit", r"^5400 x 160 +[\d.]+ +([\d.]+)"),
     ("  gain of a second thread / gain of plain arithmetic", ">= 0.95", r"second thread: .* ratio ([\d.]+)"),
     ("decimation, times faster than SciPy", ">= 2", r"ns: ([\d.]+) times"),
     *((f"{work}, / plain arithmetic", "no limit", rf"^{work} +\S+ \(.*?\) +(\S+ \(.*?\))")

@@ -1,10 +1,5 @@
 """Compares the uncertainty that `a351-correct design` expects with errors and uncertainties of simulated days of the same plan.
 
-usage: design_bench.py [SEEDS [FOLDER [PLAN [NOISE]]]]    (A351_BIN, A351_TOOLS)
-SEEDS: default 12001-12040, which were not used while the command was developed.  FOLDER: keeps the results of each day; days
-with results are not computed again.  PLAN: the first letters of a plan, default all.  NOISE: usual (default), placement and flicker
-of 1.2 mGal and a unit within +-25 %; assumed, unit and noise from the priors of a day; calibrated, usual with the placement known to
-the day, from a calibration.
 Each seed draws a day of tsukuba's weather for every plan.  Nothing is fitted to the days: the design
 knows the plan and a usual unit only.
 
@@ -16,13 +11,12 @@ import concurrent.futures
 import datetime
 import json
 import os
-import pathlib
 import random
 import shutil
-import sys
 import tomllib
 
-from simulated_units import assumed, correct, hide_references, rms, seeds_of, simulate_unit, unit_of
+from command_line import add_seeds, command_line, end_with
+from simulated_units import add_folder, assumed, correct, hide_references, kept, rms, simulate_unit, unit_of
 from programs import BIN, TOP, Scratch, read_json, rows, run
 
 START, EVERY_MIN = "2017-07-15T23:30:00Z", 35
@@ -106,16 +100,8 @@ def look_at(scratch, seed, plan):
              [[float(row["gravity_mgal"]) - truth[row["site"]], float(row["u_gravity_mgal"])]
               for row in rows(out / "stations.csv") if row["site"] not in known]]
     shutil.rmtree(folder)
+    print(f"{plan}: day {seed} done", flush=True)
     return found
-
-
-def kept(store, scratch, seed, plan):
-    """Returns the result of look_at(), computed now or read from an earlier run."""
-    file = store / f"{noise}-{seed}-{list(PLANS).index(plan)}.json"
-    if not file.exists():
-        file.write_text(json.dumps(look_at(scratch, seed, plan)))
-        print(f"{plan}: day {seed} done", flush=True)
-    return read_json(file)
 
 
 def ratio_with_limits(expected, days, place):
@@ -125,16 +111,20 @@ def ratio_with_limits(expected, days, place):
     return expected / rms(row[place] for day in days for row in day), several[DRAWS // 40], several[-DRAWS // 40]
 
 
-seeds = seeds_of(sys.argv[1] if len(sys.argv) > 1 else "12001-12040")
-only = sys.argv[3] if len(sys.argv) > 3 else ""
-noise = sys.argv[4] if len(sys.argv) > 4 else "usual"
-failures = []
+line = command_line(__doc__, "design_bench.py 12001-12004 results 2")
+add_seeds(line, "12001-12040")
+add_folder(line)
+line.add_argument("plan", metavar="PLAN", nargs="?", default="", help=f"the first letters of a plan: {', '.join(PLANS)}; default: all")
+line.add_argument("noise", metavar="NOISE", nargs="?", choices=("usual", "assumed", "calibrated"), default="usual",
+                  help="usual: placement and flicker of 1.2 mGal and a unit within +-25 %%; assumed: unit and noise from the priors of a "
+                       "day; calibrated: usual with the placement known to the day, from a calibration")
+options = line.parse_args()
+seeds, noise, failures = options.seeds, options.noise, []
 with Scratch() as scratch, concurrent.futures.ThreadPoolExecutor(int(os.environ.get("A351_JOBS", os.cpu_count()))) as pool:
-    store = pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else scratch
-    store.mkdir(parents=True, exist_ok=True)
-    for plan in [plan for plan in PLANS if plan.startswith(only)]:
+    store = options.folder or scratch
+    for k, plan in ((k, plan) for k, plan in enumerate(PLANS) if plan.startswith(options.plan)):
         expected = expected_u(scratch, plan)
-        results = list(pool.map(lambda seed: kept(store, scratch, seed, plan), seeds))
+        results = list(pool.map(lambda seed, k=k, plan=plan: kept(store / f"{noise}-{seed}-{k}.json", lambda: look_at(scratch, seed, plan)), seeds))
         days = [day for _, day in results]
         error, low, high = ratio_with_limits(expected, days, 0)
         stated, stated_low, stated_high = ratio_with_limits(expected, days, 1)
@@ -143,5 +133,4 @@ with Scratch() as scratch, concurrent.futures.ThreadPoolExecutor(int(os.environ.
               f"expected / u {stated:.2f} ({stated_low:.2f} to {stated_high:.2f}); models {sorted({model for model, _ in results})}")
         if noise == "usual" and not PROMISED[0] <= error <= PROMISED[1]:
             failures.append(plan)
-print(f"NOT REACHED: {', '.join(failures)}" if failures else "all promises kept")
-sys.exit(bool(failures))
+end_with(failures)

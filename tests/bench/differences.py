@@ -1,10 +1,7 @@
 """Measures whether differences between stations scatter as differences.csv and joint-differences.csv say.
 
-usage: differences.py [SEEDS [KNOWN [MODEL]]]    (A351_BIN, A351_TOOLS)
-SEEDS: default 9701-9740, which were not used while the differences were developed.  Each seed draws a unit within +-25 % and
-two days of tsukuba with it, a month apart.  Each of the 91 differences of a day is measured without the references of its two stations.
-KNOWN: the sites whose gravity is known, joined by commas; default or empty: all 14.
-MODEL: model of the second day; default: day.
+Each seed draws a unit within +-25 % and two days of tsukuba with it, a month apart.  Each of the 91 differences of a day is
+measured without the references of its two stations.
 Promised: the rms error of the differences of single days is within 10 % of the rms of their uncertainties.  The same is printed
 of the differences of both days together.
 """
@@ -13,9 +10,9 @@ import concurrent.futures
 import os
 import re
 import shutil
-import sys
 
-from simulated_units import correct, hide_references, rms, rms_by_day, seeds_of, simulate, unit_of
+from command_line import add_seeds, command_line, end_with
+from simulated_units import correct, hide_references, rms, rms_by_day, simulate, unit_of
 from programs import BIN, TOP, Scratch, rows, run
 
 PROMISED = 0.9, 1.1
@@ -66,12 +63,16 @@ def ratio_of(name, units):
     return error / u
 
 
-seeds = seeds_of(sys.argv[1] if len(sys.argv) > 1 else "9701-9740")
-known = sys.argv[2].split(",") if len(sys.argv) > 2 and sys.argv[2] else []
-second_model = sys.argv[3] if len(sys.argv) > 3 else "day"
+line = command_line(__doc__, "differences.py 9701-9704 No.0,No.7")
+add_seeds(line, "9701-9740")
+line.add_argument("known", metavar="KNOWN", nargs="?", default="",
+                  help="sites whose gravity is known, joined by commas; default or empty: all 14")
+line.add_argument("second_model", metavar="MODEL", nargs="?", default="day", help="model of the second day")
+options = line.parse_args()
+known, second_model = list(filter(None, options.known.split(","))), options.second_model
 with Scratch() as scratch, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-    every = list(pool.map(lambda seed: errors_and_uncertainties(scratch, seed), seeds))
+    every = list(pool.map(lambda seed: errors_and_uncertainties(scratch, seed), options.seeds))
 ratio = ratio_of("of single days", [single for single, _ in every])
 ratio_of("of two days together", [joint for _, joint in every])
-print(f"promised for single days: {PROMISED[0]} to {PROMISED[1]}")
-sys.exit(not PROMISED[0] <= ratio <= PROMISED[1])
+end_with([] if PROMISED[0] <= ratio <= PROMISED[1] else
+         [f"ratio of single days {ratio:.3f}, promised {PROMISED[0]} to {PROMISED[1]}"])

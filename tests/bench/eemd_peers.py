@@ -1,6 +1,5 @@
 """Compares the speed of the decomposition with other programs, if they are installed, and measures the gain of a second thread.
 
-usage: eemd_peers.py    (A351_TOOLS: folder of micro_bench)
 Other programs: R's Rlibeemd (the core of libeemd, the reference) and Python's PyEMD, compiled as installed.  All use the
 same sizes, ten sifts, noise 0.1 and one thread; the best CPU time of several runs counts.  The gain of the second thread is
 elapsed time, so it is valid on an idle machine only.
@@ -8,17 +7,15 @@ elapsed time, so it is valid on an idle machine only.
 
 import importlib.util
 import json
-import os
-import pathlib
 import shutil
 import subprocess
 import time
 
-TOOLS = pathlib.Path(os.environ["A351_TOOLS"])
+from command_line import command_line
+from simulated_units import TOOLS
+
 # Samples, members, components with the residue.
 SIZES = [(450, 80, 8), (5400, 160, 11), (65536, 100, 16)]
-TARGET_NS = 1.0
-BAR_NS = 8.9  # libeemd's time in ns per sample and sift, 5400 samples, on the machine on which the promise was made.
 
 RLIBEEMD = """
 library(Rlibeemd)
@@ -67,18 +64,18 @@ def pyemd_seconds(n, members, components):
     return time.process_time() - start
 
 
+command_line(__doc__, "eemd_peers.py", has_promises=False).parse_args()
 own = own_figures()
-print(f"{'one thread, 10 sifts':<24}{'ms':>10}{'ns/sample/sift':>16}{'Rlibeemd':>14}{'PyEMD':>14}")
+loop_ms = own["arithmetic/1"]["cpu_ms"]
+print(f"{'one thread, 10 sifts':<24}{'ms':>10}{'/ arithmetic':>16}{'Rlibeemd':>14}{'PyEMD':>14}")
 for n, members, components in SIZES:
     milliseconds = own[f"ensemble/{n}/{members}"]["cpu_ms"]
-    nanoseconds = 1e6 * milliseconds / (n * members * (components - 1) * 10)
-    line = f"{f'{n} x {members}':<24}{milliseconds:>10.1f}{nanoseconds:>16.2f}"
+    line = f"{f'{n} x {members}':<24}{milliseconds:>10.1f}{milliseconds / loop_ms:>16.2f}"
     for peer in (rlibeemd_seconds, pyemd_seconds):
         seconds = peer(n, members, components)
         line += f"{'-':>14}" if seconds is None else f"{f'{1e3 * seconds / milliseconds:.1f} times':>14}"
     print(line)
-print(f"promised at 5400 x 160: {TARGET_NS} ns, or 7 times as fast as Rlibeemd "
-      f"({BAR_NS} ns when the promise was made)")
+print("promised at 5400 x 160: 7 times as fast as Rlibeemd")
 alone, whole = own["trend_alone"]["cpu_ms"], own["trend_of_all_modes"]["cpu_ms"]
 print(f"an occupation's trend, 450 x 80: alone {alone:.2f} ms, with all modes {whole:.2f} ms; {whole / alone:.2f} times")
 gain = own["ensemble_threads/1"]["real_ms"] / own["ensemble_threads/2"]["real_ms"]

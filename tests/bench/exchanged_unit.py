@@ -1,7 +1,5 @@
 """Measures what an exchange of the sensor in the middle of a day costs: left-out errors against those of two separate days.
 
-usage: exchanged_unit.py [FIRST_SEED [DAYS]]   (A351_BIN)
-FIRST_SEED: default 81001, DAYS: 2 or more, default 20.  None of these seeds was used while the division by sensor was developed.
 Each seed draws two units, within +-25 % and with biases within +-5000 mGal, and an instant of the day of tsukuba, with at least four stays before and after it.
 The first unit recorded before it, the second one from it on, into one data root.  A stay that runs at this instant ends there.
 In each fourth seed the first unit comes back later, at a second instant.
@@ -19,8 +17,8 @@ import re
 import shutil
 import statistics
 import struct
-import sys
 
+from command_line import add_days, command_line
 from simulated_units import rms, rms_by_day, simulate
 from programs import BIN, Scratch, read_json, rows, run
 
@@ -141,11 +139,12 @@ def look_at(scratch, seed):
     return times, errors, ratios, apart, is_named, is_whole
 
 
-first_seed = int(sys.argv[1]) if len(sys.argv) > 1 else 81001
-count = int(sys.argv[2]) if len(sys.argv) > 2 else 20
+line = command_line(__doc__, "exchanged_unit.py 81001 2", has_promises=False)
+add_days(line, 81001, 20, least=2)
+options = line.parse_args()
 with Scratch() as scratch:
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        results = list(pool.map(lambda seed: look_at(scratch, seed), range(first_seed, first_seed + count)))
+        results = list(pool.map(lambda seed: look_at(scratch, seed), range(options.first, options.first + options.days)))
 print("exchange at           exchanged, separate, mGal   e/u   apart, mGal   named")
 for times, (ours, separate), ratios, apart, is_named, _ in results:
     print(f"{' and '.join(f'{at:%H:%M:%S}' for at in times):21} {rms(ours):9.2f} {rms(separate):10.2f} {rms(ratios):12.2f} {apart:12.4f}   {is_named}")

@@ -1,7 +1,6 @@
-"""How much gravity could gain, at best, if the box is turned over between set-ups: a covariance analysis that needs no corrector.
+"""Computes how much gravity could gain, at best, from turning the box over between set-ups: a covariance analysis without a corrector.
 
-usage: faces_bound.py [FIRST_SEED [DAYS]]    (A351_BIN, numpy)
-Default 95001 and 20 days of tsukuba, one known station (No.0), twelve minutes at each stay.  The design is made of the emulator's own
+Needs numpy.  Days of tsukuba, one known station (No.0), twelve minutes at each stay.  The design is made of the emulator's own
 truth: the mean of each cause of error over each set-up, for the unit of the scenario.
 
 A reading divided by its face s (+1 or -1) is g + s (bias) + (scale g): what belongs to the bias has the sign of the face, what belongs
@@ -18,10 +17,14 @@ Promised: nothing.  Turning is worth building if + - - + is 15 % better than fou
 import datetime
 import sys
 
-import numpy
-
+from command_line import add_days, command_line
 from simulated_units import UNIT, simulate
 from programs import Scratch, rows
+
+try:
+    import numpy
+except ImportError:
+    numpy = None  # --help needs none.
 
 KNOWN = "No.0"
 PLANS = {"1 x 12": "+", "2 x 6": "++", "4 x 3": "++++", "+ -": "+-", "+ - - +": "+--+"}
@@ -31,13 +34,15 @@ GRADIENT_s = 300.0
 SLOPE_ERROR, SHARE_ERROR = 0.6, 12.0 ** -0.5
 DRIFT_mgal_per_h, AXIS_mgal_per_g, WARM_UP_mgal, FREE_mgal = 1.0, 300.0, 36.0, 1e4
 PLACEMENT_mgal, FLICKER_mgal, WHITE_mgal_s = 1.2, 1.2, 0.25 * 40.0 ** 0.5  # White: of one second.
-FLICKER_PERIODS_s = 40.0 * 10.0 ** (0.5 * numpy.arange(7))
+FLICKER_PERIODS_s = [40.0 * 10.0 ** (0.5 * k) for k in range(7)]
 
 
 class Day:
     """The set-ups of a simulated day: times, and the mean of each cause of error."""
 
     def __init__(self, folder, seed, faces):
+        if numpy is None:
+            sys.exit("numpy (python3-numpy) is not installed")
         folder = simulate(folder, f"{seed}-{len(faces)}", "tsukuba", seed, 0.0, f"[schedule]\nsetups = {len(faces)}\n")
         table = rows(folder / "truth.csv")
 
@@ -119,10 +124,12 @@ def bound(day, plan, share, is_known, gradient_mgal):
 
 
 def print_bound():
-    first = int(sys.argv[1]) if len(sys.argv) > 1 else 95001
-    count = int(sys.argv[2]) if len(sys.argv) > 2 else 20
+    line = command_line(__doc__, "faces_bound.py 95001 2", has_promises=False)
+    add_days(line, 95001, 20)
+    options = line.parse_args()
+    seeds = range(options.first, options.first + options.days)
     with Scratch() as scratch:
-        days = {len(plan): [Day(scratch, seed, plan) for seed in range(first, first + count)] for plan in {len(faces): faces for faces in PLANS.values()}.values()}
+        days = {len(plan): [Day(scratch, seed, plan) for seed in seeds] for plan in {len(faces): faces for faces in PLANS.values()}.values()}
         print("share of scale, gradient | " + " | ".join(PLANS))
         for share in SHARES:
             for is_known in (True, False):

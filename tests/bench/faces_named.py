@@ -1,7 +1,6 @@
-"""Whether a turn that was forgotten, and a face that was entered wrong, is named in the evening.
+"""Measures how often a turn that was forgotten, and a face that was entered wrong, is named in the evening.
 
-usage: faces_named.py [FIRST_SEED [DAYS]]    (A351_BIN)
-Default 97501 and 100 days of tsukuba in the faces + - - +.  The log of each day has the planned face of each set-up, and that of one set-up
+Days of tsukuba in the faces + - - +.  The log of each day has the planned face of each set-up, and that of one set-up
 of some stay is the other one, as if its turn had been forgotten; in another stay a face was entered, and it is wrong.  Ten days are
 simulated, the rest are the same days with other set-ups.
 Promised: both are named, and nothing else about faces, on 95 of 100 days; nothing without these mistakes.
@@ -12,8 +11,8 @@ import json
 import os
 import random
 import shutil
-import sys
 
+from command_line import add_days, command_line, end_with
 from simulated_units import correct, hide_references, simulate
 from programs import Scratch
 
@@ -60,8 +59,10 @@ def is_named(scratch, simulated, number, has_mistakes):
 
 
 def main():
-    first = int(sys.argv[1]) if len(sys.argv) > 1 else 97501
-    days = int(sys.argv[2]) if len(sys.argv) > 2 else 100
+    line = command_line(__doc__, "faces_named.py 97501 10")
+    add_days(line, 97501, 100)
+    options = line.parse_args()
+    first, days = options.first, options.days
     with Scratch() as scratch, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         simulated = [*pool.map(lambda seed: simulate(scratch, f"{seed}", "tsukuba", seed, 0.25,
                                                      f"[schedule]\nsetups = {len(PLAN)}\nfaces = \"{PLAN}\"\n"),
@@ -69,7 +70,8 @@ def main():
         named = sum(pool.map(lambda k: is_named(scratch, simulated[k % len(simulated)], k, True), range(days)))
         quiet = sum(pool.map(lambda k: is_named(scratch, simulated[k], k, False), range(len(simulated))))
     print(f"named on {named} of {days} days; nothing said on {quiet} of {len(simulated)} days without a mistake")
-    return named >= LEAST_NAMED * days and quiet == len(simulated)
+    end_with([*(["named on 95 %"] if named < LEAST_NAMED * days else []),
+              *(["nothing said without a mistake"] if quiet < len(simulated) else [])])
 
 
-sys.exit(not main())
+main()

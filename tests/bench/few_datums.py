@@ -1,8 +1,6 @@
 """Measures errors and stated uncertainties at unknown stations when one, two or three stations are known.
 
-usage: few_datums.py [SEEDS [FOLDER]]    (A351_BIN, A351_TOOLS)
-SEEDS: default 9501-9540, which were not used while the model was developed.  Each seed draws a unit, and its day is
-simulated for every scenario.  FOLDER: keeps the results of each day; days with results are not computed again.
+Each seed draws a unit, and its day is simulated for every scenario.
 A351_CALIBRATED=0: without calibrations, whose records take most of the time.
 
 The survey is corrected with the default model.  Errors are those of gravity_mgal in stations.csv at the stations without a
@@ -12,14 +10,12 @@ A calibration has the axis biases of a tilt series and the thermal response of t
 
 import collections
 import concurrent.futures
-import json
 import os
-import pathlib
 import random
 import shutil
-import sys
 
-from simulated_units import TWO_DAYS, VALID_FROM, correct, hide_references, measure, rms, seeds_of, simulate
+from command_line import add_seeds, command_line, end_with
+from simulated_units import TWO_DAYS, VALID_FROM, add_folder, correct, hide_references, kept, measure, rms, simulate
 from programs import BIN, Scratch, read_json, rows, run
 
 # Scenario and scatter of its units.  Promised errors in mGal for each number of known stations, without and with calibration.
@@ -69,16 +65,8 @@ def look_at(scratch, seed):
                 found.append([scenario, scatter, count, bool(is_calibrated), model, errors])
         shutil.rmtree(day)
     shutil.rmtree(folder)
+    print(f"unit {seed} done", flush=True)
     return found
-
-
-def kept(store, scratch, seed):
-    """Returns the result of look_at(), computed now or read from an earlier run."""
-    file = store / f"{seed}-{os.environ.get('A351_CALIBRATED', '1')}.json"
-    if not file.exists():
-        file.write_text(json.dumps(look_at(scratch, seed)))
-        print(f"unit {seed} done", flush=True)
-    return read_json(file)
 
 
 def figures(days):
@@ -108,12 +96,14 @@ def demand_within(name, value, low, high):
         failures.append(f"{name}: {value:.3f}, promised {low} to {high}")
 
 
-seeds = seeds_of(sys.argv[1] if len(sys.argv) > 1 else "9501-9540")
+line = command_line(__doc__, "few_datums.py 9501-9504")
+add_seeds(line, "9501-9540")
+add_folder(line)
+options = line.parse_args()
 cells, models = collections.defaultdict(list), collections.defaultdict(collections.Counter)
 with Scratch() as scratch, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-    store = pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else scratch
-    store.mkdir(parents=True, exist_ok=True)
-    for results in pool.map(lambda seed: kept(store, scratch, seed), seeds):
+    store, part = options.folder or scratch, os.environ.get("A351_CALIBRATED", "1")
+    for results in pool.map(lambda seed: kept(store / f"{seed}-{part}.json", lambda: look_at(scratch, seed)), options.seeds):
         for scenario, scatter, known, is_calibrated, model, errors in results:
             cells[known, is_calibrated, scenario, scatter].append(errors)
             models[known, is_calibrated, scenario, scatter][model] += 1
@@ -133,5 +123,4 @@ for known in KNOWN:
     _, ratio, within = figures(pooled)
     demand_within(f"{known} known, e/u", ratio, *HONEST_POOLED)
     demand_within(f"{known} known, within 2 u", within, LEAST_WITHIN_2U, 1.0)
-print("\n".join(f"NOT REACHED: {failure}" for failure in failures) or "all promises kept")
-sys.exit(bool(failures))
+end_with(failures)

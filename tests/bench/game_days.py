@@ -1,7 +1,6 @@
-"""Game days: what three mistakes do to a survey day, and what is left of them when every proposal is carried out.
+"""Measures what three mistakes do to a survey day, and what is left of them when every proposal is carried out.
 
-usage: game_days.py [FIRST_SEED [DAYS]]    (A351_BIN)
-Default 23001 and 40 days of tsukuba, hot-afternoon and tilted in turn.  Each seed draws a unit within +-25 % and three mistakes
+Days of tsukuba, hot-afternoon and tilted in turn.  Each seed draws a unit within +-25 % and three mistakes
 of tests/system/mistakes.toml (tired_operator.py).
 """
 
@@ -9,8 +8,8 @@ import concurrent.futures
 import os
 import shutil
 import statistics
-import sys
 
+from command_line import add_days, command_line, end_with
 from simulated_units import unit_of
 from programs import Scratch
 from tired_operator import play
@@ -34,7 +33,10 @@ def game(scratch, seed):
     return result
 
 
-first, count = (int(sys.argv[k]) if len(sys.argv) > k else default for k, default in ((1, 23001), (2, 40)))
+line = command_line(__doc__, "game_days.py 23001 3")
+add_days(line, 23001, 40)
+options = line.parse_args()
+first, count = options.first, options.days
 with Scratch() as scratch, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
     games = []
     for seed, one in zip(range(first, first + count), pool.map(lambda seed: game(scratch, seed), range(first, first + count))):
@@ -55,4 +57,5 @@ print(f"{count} days with {sum(len(one['made']) for one in games)} mistakes: lef
       f"out {statistics.median(ratios):.3f} (promised {MOST_MEDIAN}), at most {max(ratios):.3f} (promised {MOST_EVER}); "
       f"{len(unsaid)} mistakes unsaid, {len(harmful)} of them on days that are changed by more than {MOST_CHANGED:.0f} u, "
       f"{len(silent)} without a word that the model does not fit")
-sys.exit(statistics.median(ratios) > MOST_MEDIAN or max(ratios) > MOST_EVER or bool(silent))
+end_with([*(["the median"] if statistics.median(ratios) > MOST_MEDIAN else []), *(["the largest"] if max(ratios) > MOST_EVER else []),
+          *(["a word on each day with a mistake that harms"] if silent else [])])

@@ -1,9 +1,8 @@
 """Measures what a stop that is pressed at the next benchmark does to a day, and *Next set-up* before or after the lifting.
 
-usage: late_stops.py [FIRST_SEED [DAYS [CLEAN [CHANGED]]]]    (A351_BIN, A351_TOOLS)
-FIRST_SEED: default 13201.  On each of DAYS days (default 2) of three scenarios each stop is moved to 30 s before the next start,
-one at a time.  CLEAN further days of tsukuba (default 30) have no mistake.  CHANGED further days of tsukuba (default 20) have two
-set-ups of 6 min in each stay, with *Next set-up* at the lifting, then 60 s before to 120 s after it, and then without it in one stay.
+On each of DAYS days of three scenarios each stop is moved to 30 s before the next start, one at a time.  CLEAN further days of tsukuba
+have no mistake.  CHANGED further days of tsukuba have two set-ups of 6 min in each stay, with *Next set-up* at the lifting, then 60 s
+before to 120 s after it, and then without it in one stay.
 """
 
 import concurrent.futures
@@ -12,8 +11,8 @@ import json
 import os
 import random
 import statistics
-import sys
 
+from command_line import add_days, at_least, command_line, end_with
 from simulated_units import correct, simulate
 from programs import Scratch, read_json
 
@@ -83,14 +82,20 @@ def change(scratch, seed):
     return false, pressed_mgal - exact_mgal, exact_mgal, set(found) - {("short_stay", site)} == {("missed_set_up", site)}
 
 
-first, days, clean, changed = (int(sys.argv[k]) if len(sys.argv) > k else default
-                               for k, default in ((1, 13201), (2, 2), (3, 30), (4, 20)))
+line = command_line(__doc__, "late_stops.py 13201 1 2 2")
+add_days(line, 13201, 2, least=0)
+line.add_argument("clean", metavar="CLEAN", nargs="?", type=at_least(0), default=30, help="number of days without a mistake")
+line.add_argument("changed", metavar="CHANGED", nargs="?", type=at_least(0), default=20, help="number of days with two set-ups, 0 or from 2 on")
+options = line.parse_args()
+if options.changed == 1:
+    line.error("CHANGED = 1: allowed: 0, or 2 and more, for the scatter of the days")
+first, days, clean, changed = options.first, options.days, options.clean, options.changed
 jobs = [(scenario, first + k, False) for scenario in ("tsukuba", "roadside", "tilted") for k in range(days)]
 jobs += [("tsukuba", first + days + k, True) for k in range(clean)]
 with Scratch() as scratch, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
     looked = list(pool.map(lambda job: look_at(scratch, *job), jobs))
     changes = list(pool.map(lambda seed: change(scratch, seed), range(first + days + clean, first + days + clean + changed)))
-is_kept = True
+failures = []
 if looked:
     false = sum(bool(found) for found, _ in looked)
     late = [one for _, day in looked for one in day]
@@ -99,9 +104,11 @@ if looked:
     if late:
         print(f"{right} of {len(late)} late stops are found, and no other stay is named; left-out error {statistics.median(ratios):.3f} "
               f"times that of the day without the mistake (median), at most {max(ratios):.3f}, promised {MOST_WORSE}")
-        is_kept = right >= 0.95 * len(late) and max(ratios) <= MOST_WORSE
+        if right < 0.95 * len(late) or max(ratios) > MOST_WORSE:
+            failures.append("late stops")
     print(f"{false} of {len(looked)} days without a mistake have a finding")
-    is_kept = is_kept and false <= 0.05 * len(looked)
+    if false > 0.05 * len(looked):
+        failures.append("days without a mistake")
 if changes:
     findings = [kind for false, *_ in changes for kind, _ in false]
     differences = [difference for _, difference, *_ in changes]
@@ -110,5 +117,6 @@ if changes:
     print(f"Next set-up beside the lifting, {len(changes)} days: {len(findings)} findings {sorted(set(findings))}; left-out error "
           f"{statistics.fmean(differences):+.4f} mGal, standard error {standard_error:.4f}, of {statistics.fmean(exact for *_, exact, _ in changes):.3f} "
           f"with the press at the lifting; {found} forgotten ones are found, and no other stay is named")
-    is_kept = is_kept and not findings and abs(statistics.fmean(differences)) <= 2.0 * standard_error and found >= 0.95 * len(changes)
-sys.exit(not is_kept)
+    if findings or abs(statistics.fmean(differences)) > 2.0 * standard_error or found < 0.95 * len(changes):
+        failures.append("Next set-up beside the lifting")
+end_with(failures)

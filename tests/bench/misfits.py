@@ -1,9 +1,7 @@
 """Measures how often the whole-day model says that it does not fit a day.
 
-usage: misfits.py [FIRST_SEED [ORDINARY [MISFIT]]]    (A351_BIN, A351_TOOLS)
-FIRST_SEED: default 10601.  The first 200 seeds (ORDINARY) have ordinary days; from each of the first 40 (MISFIT) the days with
-a misfit are made, too.  None of them was used while the tests were developed.  Each seed draws a unit within +-25 % and a day
-of tsukuba, whose stations are all known.
+The first DAYS seeds have ordinary days; from each of the first MISFIT the days with a misfit are made, too.  Each seed draws a unit
+within +-25 % and a day of tsukuba, whose stations are all known.
 - quadratic: the reading changes by 60 mGal/degC^2 times the square of the temperature.
 - step: all readings after one drive, which is drawn, are off by 8 mGal.
 - heavy tails: one set-up in five has a placement that is ten times as large.
@@ -16,8 +14,8 @@ The bounds are the shares of steps and of heavy tails that the best possible tes
 import concurrent.futures
 import os
 import shutil
-import sys
 
+from command_line import add_days, at_least, command_line, end_with
 from simulated_units import correct, rms, simulate
 from programs import TOOLS, Scratch, read_json, rows, run
 
@@ -49,8 +47,11 @@ def look_at(scratch, name, seed):
     return found, is_mistaken, errors, bounds
 
 
-first, ordinary, misfit = (int(sys.argv[k + 1]) if len(sys.argv) > k + 1 else default
-                           for k, default in enumerate((10601, 200, 40)))
+line = command_line(__doc__, "misfits.py 10601 8 4")
+add_days(line, 10601, 200)
+line.add_argument("misfit", metavar="MISFIT", nargs="?", type=at_least(1), default=40, help="number of days with each misfit")
+options = line.parse_args()
+first, ordinary, misfit = options.first, options.days, options.misfit
 failures = []
 with Scratch() as scratch, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
     for name, (_, promised) in DAYS.items():
@@ -72,5 +73,4 @@ with Scratch() as scratch, concurrent.futures.ThreadPoolExecutor(os.cpu_count())
             failures.append(f"said on {100.0 * share:.1f} % of ordinary days, promised at most {100.0 * MOST_FALSE:.0f} %")
         if promised is not None and share < promised:
             failures.append(f"{name}: said on {100.0 * share:.1f} %, promised {100.0 * promised:.0f} %")
-print("\n".join(f"NOT REACHED: {failure}" for failure in failures) or "all promises kept")
-sys.exit(bool(failures))
+end_with(failures)

@@ -1,20 +1,17 @@
 """Measures what an hour without any record costs: on the road, over a stay, before the first stay.
 
-usage: missing_hour.py [SEEDS]    (A351_BIN, A351_TOOLS)
-SEEDS: default 9601-9620, which were not used while the model was developed.  Each seed draws a unit within +-25 %.
-The scenario is tsukuba.  All channels lose every miniSEED record that overlaps the hour.  The error is that of
+Each seed draws a unit within +-25 %.  The scenario is tsukuba.  All channels lose every miniSEED record that overlaps the hour.  The error is that of
 left_out_mgal, over the stays that remain; for comparison the same stays of the complete day.
 """
 
 import concurrent.futures
 import datetime
 import os
-import pathlib
 import shutil
 import struct
-import sys
 
-from simulated_units import correct, rms_by_day, seeds_of, simulate
+from command_line import add_seeds, command_line, end_with
+from simulated_units import correct, rms_by_day, simulate
 from programs import Scratch, rows
 
 MOST_MGAL = 1.75
@@ -78,7 +75,9 @@ def look_at(scratch, seed):
     return found
 
 
-seeds = seeds_of(sys.argv[1] if len(sys.argv) > 1 else "9601-9620")
+line = command_line(__doc__, "missing_hour.py 9601-9604")
+add_seeds(line, "9601-9620")
+seeds = line.parse_args().seeds
 with Scratch() as scratch, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
     days = list(pool.map(lambda seed: look_at(scratch, seed), seeds))
 failures = []
@@ -88,5 +87,4 @@ for name in days[0]:
           f"complete days {complete:.2f} +- {u_complete:.2f}")
     if gap > MOST_MGAL:
         failures.append(f"{name}: {gap:.2f} mGal, promised {MOST_MGAL}")
-print("\n".join(f"NOT REACHED: {failure}" for failure in failures) or "all promises kept")
-sys.exit(bool(failures))
+end_with(failures)

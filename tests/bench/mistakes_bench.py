@@ -1,8 +1,7 @@
-"""How often the mistakes of operators are named, and how often something false is said of a day without one.
+"""Measures how often the mistakes of operators are named, and how often something false is said of a day without one.
 
-usage: mistakes_bench.py [FIRST_SEED [CLEAN [DAYS [MOST]]]]    (A351_BIN, A351_TOOLS)
-Default 28001, 200 clean days of tsukuba, tilted, hot-afternoon and roadside in turn, and 6 days of the first three, in each of
-which at most 6 mistakes of each kind are made, one at a time (mistake_trials.cpp).  Each seed draws a unit within +-25 %.
+CLEAN days of tsukuba, tilted, hot-afternoon and roadside in turn have no mistake.  On DAYS days of the first three at most MOST
+mistakes of each kind are made, one at a time (mistake_trials.cpp).  Each seed draws a unit within +-25 %.
 Each day is printed with its trials / named / otherwise / in a headline.
 """
 
@@ -10,8 +9,8 @@ import collections
 import concurrent.futures
 import os
 import shutil
-import sys
 
+from command_line import at_least, command_line, end_with
 from simulated_units import simulate
 from programs import TOOLS, Scratch, run
 
@@ -31,8 +30,14 @@ def trials(scratch, scenario, seed, most):
     return {kind: [int(number) for number in numbers] for kind, *numbers in (line.split() for line in lines)}
 
 
-first, clean, days, most = (int(sys.argv[k + 1]) if len(sys.argv) > k + 1 else default
-                            for k, default in enumerate((28001, 200, 6, 6)))
+line = command_line(__doc__, "mistakes_bench.py 28001 4 3 2")
+line.add_argument("first", metavar="FIRST_SEED", nargs="?", type=at_least(0), default=28001,
+                  help="seed of the first day; the default ones were not used in development")
+for name, default, meaning in (("clean", 200, "number of days without a mistake"), ("days", 6, "number of days with mistakes"),
+                               ("most", 6, "largest number of mistakes of each kind on a day")):
+    line.add_argument(name, metavar=name.upper(), nargs="?", type=at_least(0), default=default, help=meaning)
+options = line.parse_args()
+first, clean, days, most = options.first, options.clean, options.days, options.most
 jobs = [(("tsukuba", "tilted", "hot-afternoon", "roadside")[k % 4], first + k, 0) for k in range(clean)]
 jobs += [(("tsukuba", "hot-afternoon", "tilted")[k % 3], first + clean + k, most) for k in range(days)]
 totals = collections.defaultdict(lambda: [0, 0, 0, 0])
@@ -58,5 +63,4 @@ for kind, (count, named, otherwise, headlines) in totals.items():
         failures.append(f"false findings on {otherwise} of {count} clean days, {headlines} in a headline")
     if promised is not None and share < promised:
         failures.append(f"{kind}: named in {100.0 * share:.1f} %, promised {100.0 * promised:.0f} %")
-print("\n".join(f"NOT REACHED: {failure}" for failure in failures) or "all promises kept")
-sys.exit(bool(failures))
+end_with(failures)

@@ -1,7 +1,6 @@
 """Measures how well `calibrate --placement` finds the scatter of set-ups, and how often its limits contain the truth.
 
-usage: placement_bench.py [SEEDS]    (A351_BIN, A351_TOOLS)
-SEEDS: default 13001-13020, which were not used while the command was developed.  Each seed draws a unit within +-25 % whose
+Each seed draws a unit within +-25 % whose
 placement is between 0.6 and 2.4 mGal, evenly in its logarithm, and makes the scenario placement: twenty set-ups at one point in
 an hour.  Promised: the true standard deviation is within the stated 95 % limits in 17 of 20.
 """
@@ -11,10 +10,10 @@ import math
 import os
 import random
 import shutil
-import sys
 import tomllib
 
-from simulated_units import rms, seeds_of, simulate
+from command_line import add_seeds, command_line, end_with
+from simulated_units import rms, simulate
 from programs import BIN, Scratch, run
 
 LEAST_MGAL, GREATEST_MGAL = 0.6, 2.4
@@ -37,7 +36,9 @@ def measured(scratch, seed):
     return found
 
 
-seeds = seeds_of(sys.argv[1] if len(sys.argv) > 1 else "13001-13020")
+line = command_line(__doc__, "placement_bench.py 13001-13004")
+add_seeds(line, "13001-13020")
+seeds = line.parse_args().seeds
 inside, logs = 0, []
 with Scratch() as scratch, concurrent.futures.ThreadPoolExecutor(int(os.environ.get("A351_JOBS", os.cpu_count()))) as pool:
     for seed, found in zip(seeds, pool.map(lambda seed: measured(scratch, seed), seeds)):
@@ -50,4 +51,4 @@ with Scratch() as scratch, concurrent.futures.ThreadPoolExecutor(int(os.environ.
 share = inside / len(logs)
 print(f"{inside} of {len(logs)} within the 95 % limits, promised {PROMISED_SHARE:.0%}; rms of ln(found / truth) {rms(logs):.3f}, "
       f"mean {sum(logs) / len(logs):+.3f}")
-sys.exit(share < PROMISED_SHARE)
+end_with([f"{share:.0%} within the limits"] if share < PROMISED_SHARE else [])

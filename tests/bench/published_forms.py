@@ -1,7 +1,6 @@
 """Measures the whole-day model on days of units that behave as other instruments do in the literature.
 
-usage: published_forms.py [SEEDS [SCENARIO...]]    (A351_BIN, A351_TOOLS)
-SEEDS: default 63001-63006, which were not used before.  Each seed draws a unit within +-25 % and a day of each scenario, with
+Each seed draws a unit within +-25 % and a day of each scenario, with
 one set-up of 12 min in each occupation.  All stations are known; an error is that of a station left out.
 A day is named if a test says that the model does not fit, or if the search for mistakes finds something.
 Promised: the rms error is at most 1.7 mGal on the days that are not named.
@@ -10,9 +9,9 @@ Promised: the rms error is at most 1.7 mGal on the days that are not named.
 import concurrent.futures
 import os
 import shutil
-import sys
 
-from simulated_units import correct, rms_by_day, seeds_of
+from command_line import add_seeds, command_line, end_with
+from simulated_units import correct, rms_by_day
 from programs import BIN, Scratch, read_json, rows, run
 
 SCENARIOS = ("warm-up", "three-links", "axis-biases", "quadratic", "drift-walk", "transport-step")
@@ -38,17 +37,19 @@ def text(days):
     return "{:.2f} +- {:.2f}".format(*rms_by_day(days))
 
 
-seeds = seeds_of(sys.argv[1] if len(sys.argv) > 1 else "63001-63006")
+line = command_line(__doc__, "published_forms.py 63001-63002 warm-up")
+add_seeds(line, "63001-63006")
+line.add_argument("scenarios", metavar="SCENARIO", nargs="*", default=SCENARIOS, help="scenarios of the days")
+options = line.parse_args()
 failures = []
 print("scenario         days  misfit  mistake   rms left out, mGal   on days not named             e/u")
 with Scratch() as scratch, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-    for scenario in sys.argv[2:] or SCENARIOS:
-        days = list(pool.map(lambda seed, name=scenario: look_at(scratch, name, seed), seeds))
+    for scenario in options.scenarios:
+        days = list(pool.map(lambda seed, name=scenario: look_at(scratch, name, seed), options.seeds))
         quiet = [[error for error, _ in errors] for misfits, mistakes, errors in days if not misfits | mistakes]
         print(f"{scenario:15} {len(days):5} {sum(bool(day[0]) for day in days):7} {sum(bool(day[1]) for day in days):8} "
               f"{text([error for error, _ in errors] for *_, errors in days):>20} {text(quiet) if quiet else '-':>19} "
               f"{text([error / u for error, u in errors] for *_, errors in days):>15}", flush=True)
         if quiet and rms_by_day(quiet)[0] > MOST_MGAL:
             failures.append(f"{scenario}: {text(quiet)} mGal on days that are not named, promised {MOST_MGAL}")
-print("\n".join(f"NOT REACHED: {failure}" for failure in failures) or "all promises kept")
-sys.exit(bool(failures))
+end_with(failures)

@@ -1,7 +1,6 @@
 """Measures whether readings with a remark are worse than those without.
 
-usage: remarks_bench.py [SEEDS [MODEL...]]    (A351_BIN, A351_TOOLS)
-SEEDS: default 93001-93015.  Each seed gives a day of each kind below, of a unit within +-25 %.  MODEL: default day and paper.
+Each seed gives a day of tsukuba, hot-afternoon and roadside with one and two set-ups, of a unit within +-25 %.
 An error is the value against the truth: `day` predicts each reading without the reference of its station, the linear models
 without the reading, `paper` has used it.  A remark is counted by its sentence without its numbers.
 Printed per remark: readings with it, their error rms, that of all others, and the difference, with standard errors from days left
@@ -13,9 +12,9 @@ import math
 import os
 import re
 import shutil
-import sys
 
-from simulated_units import correct, rms, seeds_of, simulate
+from command_line import add_seeds, command_line
+from simulated_units import correct, rms, simulate
 from programs import Scratch, rows
 
 KINDS = [(scenario, setups) for scenario in ("tsukuba", "hot-afternoon", "roadside") for setups in (1, 2)]
@@ -79,8 +78,11 @@ def show(model, days):
         print(f"{count:8}" + "".join(f"  {value:6.2f} +-{error:4.2f}" for value, error in values) + f"  {word}: {remark}", flush=True)
 
 
-seeds = seeds_of(sys.argv[1] if len(sys.argv) > 1 else "93001-93015")
-models = sys.argv[2:] or ["day", "paper"]
+line = command_line(__doc__, "remarks_bench.py 93001-93002 day", has_promises=False)
+add_seeds(line, "93001-93015")
+line.add_argument("models", metavar="MODEL", nargs="*", default=["day", "paper"], help="models of the correction")
+options = line.parse_args()
+seeds, models = options.seeds, options.models
 with Scratch() as scratch, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
     days = list(pool.map(lambda job: look_at(scratch, models, *job), [(seed, kind) for kind in KINDS for seed in seeds]))
 for model in models:

@@ -1,7 +1,5 @@
 """Measures how well the scale of the sensor is found beside a reference gravimeter.
 
-usage: side_by_side.py [FIRST_SEED [DAYS]]   (A351_BIN, A351_TOOLS)
-FIRST_SEED: default 62001, DAYS: default 20.  None of these seeds was used while the comparison was developed.
 Each seed draws a unit within +-25 %, a scale with a standard deviation of 1 %, and a day of tsukuba without published gravity.
 A gravimeter reads each occupation with 0.01 mGal, a drift, and a scale of its own that is off by 1e-4 (standard deviation).
 The prior of the sensor's scale is 1 +- 0.02.  u/known is the standard uncertainty of the scale, divided by the one of a day
@@ -15,8 +13,8 @@ import os
 import random
 import shutil
 import statistics
-import sys
 
+from command_line import add_days, command_line, end_with
 from simulated_units import correct, hide_references, simulate
 from programs import TOOLS, Scratch, read_json, rows, run
 
@@ -63,7 +61,10 @@ def look_at(scratch, seed):
     return truth, result, known, usual
 
 
-first, count = (int(sys.argv[k + 1]) if len(sys.argv) > k + 1 else default for k, default in enumerate((62001, 20)))
+line = command_line(__doc__, "side_by_side.py 62001 3")
+add_days(line, 62001, 20)
+options = line.parse_args()
+first, count = options.first, options.days
 within = wider = narrower = 0
 ratios = []
 with Scratch() as scratch, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
@@ -92,5 +93,4 @@ if statistics.fmean(ratios) > MOST_WIDER:
     failures.append(f"the limits are more than {100.0 * (MOST_WIDER - 1.0):.0f} % wider than with everything known")
 if narrower < count:
     failures.append("the limits are not narrower than those of the prior")
-print("\n".join(f"NOT REACHED: {failure}" for failure in failures) or "all promises kept")
-sys.exit(bool(failures))
+end_with(failures)

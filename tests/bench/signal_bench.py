@@ -1,7 +1,6 @@
-"""What the signal's LOOK finds at the benchmark, and how good the gravity beside it is.
+"""Measures what the signal's LOOK finds at the benchmark, and how good the gravity beside it is.
 
-usage: signal_bench.py FIRST_SEED DAYS [KIND ...]    (A351_BIN)
-KIND: default all.  The log of a day is cut after each stop, as the recorder has it then.  Without a mistake:
+The log of a day is cut after each stop, as the recorder has it then.  Without a mistake:
 - clean: DAYS of tsukuba and of hot-afternoon, one set-up of 12 min in each stay, all benchmarks known;
 - clean_two: the same with two set-ups of 6 min;
 - assumed, assumed_two: the same, with units and noise that together are the priors of the corrector;
@@ -23,8 +22,8 @@ import shutil
 import statistics
 import struct
 import subprocess
-import sys
 
+from command_line import at_least, command_line
 from simulated_units import assumed, rms, simulate, simulate_unit, unit_of
 from programs import BIN, Scratch, rows
 
@@ -177,9 +176,16 @@ WITHOUT = {"clean": (SCENARIOS, [""], False, False), "clean_two": (SCENARIOS, [T
            "assumed": (SCENARIOS, [""], False, True), "assumed_two": (SCENARIOS, [TWO_SET_UPS], False, True),
            "one_known": (CURVED, [f"[schedule]\nlength_s = {length:.1f}\n" for length in STAYS_s], True, False)}
 MISTAKES = ("set_up", "names", "reference", "moved")
-seeds = range(int(sys.argv[1]), int(sys.argv[1]) + int(sys.argv[2]))
+line = command_line(__doc__, "signal_bench.py 92001 2 clean names", has_promises=False)
+line.add_argument("first", metavar="FIRST_SEED", type=at_least(0), help="seed of the first day")
+line.add_argument("days", metavar="DAYS", type=at_least(1), help="number of days, one seed each")
+line.add_argument("kinds", metavar="KIND", nargs="*", default=[*WITHOUT, *MISTAKES], help="kinds of days")
+options = line.parse_args()
+if unknown := [kind for kind in options.kinds if kind not in WITHOUT and kind not in MISTAKES]:
+    line.error(f"KIND = {unknown[0]}: allowed: {', '.join([*WITHOUT, *MISTAKES])}")
+seeds = range(options.first, options.first + options.days)
 with Scratch() as scratch, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-    for kind in sys.argv[3:] or [*WITHOUT, *MISTAKES]:
+    for kind in options.kinds:
         if kind in MISTAKES:
             days = [one for one in pool.map(lambda seed: with_mistake(scratch / f"{kind}-{seed}", kind, seed), seeds) if one]
             show(days)

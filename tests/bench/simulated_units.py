@@ -1,5 +1,6 @@
 """Simulated days of units whose thermal parameters are drawn, and calibrations measured on their records."""
 
+import json
 import math
 import pathlib
 import random
@@ -8,18 +9,12 @@ import statistics
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "system"))
-from programs import BIN, rows, run
+from programs import BIN, TOOLS, read_json, rows, run  # noqa: F401  TOOLS is for those that import this module.
 
 UNIT = {"crystal_static_mgal_per_degc": -12.0, "crystal_dynamic_mgal_per_degc": -950.0, "crystal_tau_s": 43.0,
         "clock_mgal_per_degc": -20.0, "clock_tau_s": 2700.0, "warm_up_mgal": 36.0, "warm_up_tau_h": 2.5}
 TWO_DAYS = "[schedule]\nduration_h = 48.0\n"
 VALID_FROM = "2017-01-01T00:00:00Z"
-
-
-def seeds_of(text):
-    """Returns the seeds that an argument such as 8101-8120 names."""
-    first, _, last = text.partition("-")
-    return range(int(first), int(last or first) + 1)
 
 
 def unit_of(seed, scatter):
@@ -97,6 +92,20 @@ def hide_references(day, known, name):
     assert '"sites.csv"' in text
     survey.write_text(text.replace('"sites.csv"', f'"{name}.csv"'))
     return survey, {row["site"]: float(row["gravity_mgal"]) for row in sites}
+
+
+def add_folder(line):
+    """Adds the argument FOLDER, where kept() finds results."""
+    line.add_argument("folder", metavar="FOLDER", nargs="?", type=pathlib.Path,
+                      help="keeps the results of each seed; those found there are not computed again")
+
+
+def kept(file, compute):
+    """Returns what compute() returns, computed now or read from the file of an earlier run."""
+    if not file.exists():
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(json.dumps(compute()))
+    return read_json(file)
 
 
 def rms(values):

@@ -1,8 +1,6 @@
 """Measures the errors of corrected readings of simulated days, with every occupation kept.
 
-usage: survey_accuracy.py [SEEDS [CASE]]    (A351_BIN, A351_TOOLS)
-SEEDS: default 5001-5020, which were not used while the corrector was developed.  Each seed draws another unit
-(unit_scatter).  CASE: part of the name of a case, such as "tsukuba, units within 25 %, 2"; default: all.  An error is that of an occupation: the mean of its set-ups minus true gravity.
+Each seed draws another unit (unit_scatter).  An error is that of an occupation: the mean of its set-ups minus true gravity.
 
 "Out of sample" means leave-one-station-out.  In the first seed the reference of each station in turn is hidden and the
 program is run again (up to two set-ups, because more take minutes); this shows that the program's own column
@@ -16,12 +14,12 @@ least squares on temperature, its rate in the interval, time and the means of th
 import concurrent.futures
 import math
 import os
-import pathlib
 import shutil
 import statistics
-import sys
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "system"))
+from command_line import add_seeds, command_line, end_with
+import simulated_units
+from simulated_units import rms
 from programs import BIN, IS_LONG, Scratch, read_json, rows, run
 
 # Scenario, its unit scatter, number of set-ups; promised limits of the RMS out of sample and in sample, in mGal.
@@ -31,11 +29,6 @@ CASES = [("tsukuba", 0.25, 1, 1.6, 1.25), ("tilted", 0.25, 1, 1.6, 1.25), ("hot-
          ("roadside", 0.25, 1, None, None), ("ideal", 0.0, 1, 0.01, 0.01)]
 AGREEMENT_MGAL = 0.02
 SURVEYS = 200
-
-
-def seeds_of(text):
-    first, _, last = text.partition("-")
-    return range(int(first), int(last or first) + 1)
 
 
 def make_day(scratch, scenario, scatter, setups, seed):
@@ -48,9 +41,7 @@ def make_day(scratch, scenario, scatter, setups, seed):
 
 
 def correct(day, survey, out, model):
-    run(BIN / "a351-correct", "survey", survey, "--model", model, "--flags", "ignore", "--out", out,
-        env={"PATH": str(day)})  # A folder without gnuplot, so that no figures are drawn.
-    return rows(out / "occupations.csv")
+    return rows(simulated_units.correct(day, survey, out, "--model", model, "--flags", "ignore") / "occupations.csv")
 
 
 def by_occupation(table, value):
@@ -59,11 +50,6 @@ def by_occupation(table, value):
     for row in table:
         values.setdefault((row["site"], row["occupation"]), []).append(value(row))
     return {key: statistics.fmean(found) for key, found in values.items()}
-
-
-def rms(values):
-    values = list(values)
-    return math.sqrt(statistics.fmean(value * value for value in values))
 
 
 def number(row, column):
@@ -128,13 +114,18 @@ def coverage(intervals):
 
 
 failures = []
-seeds = seeds_of(sys.argv[1] if len(sys.argv) > 1 else "5001-5020")
+line = command_line(__doc__, "survey_accuracy.py 5001-5002 'tsukuba, units within 25 %, 1'")
+add_seeds(line, "5001-5020")
+line.add_argument("case", metavar="CASE", nargs="?", default="",
+                  help='part of the name of a case, such as "tsukuba, units within 25 %%, 2"; default: all')
+options = line.parse_args()
+seeds = options.seeds
 with Scratch() as scratch, concurrent.futures.ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
     means = {}
     for case in CASES:
         scenario, scatter, setups, most_out, most_in = case
         name = f"{scenario}, units within {100 * scatter:.0f} %, {setups} set-up{'s' if setups > 1 else ''}"
-        if len(sys.argv) > 2 and sys.argv[2] not in name:
+        if options.case not in name:
             continue
         print(name, flush=True)
         days = []
@@ -156,6 +147,8 @@ with Scratch() as scratch, concurrent.futures.ThreadPoolExecutor(len(os.sched_ge
                 failures.append(f"{name}: {figure} {means[name, figure]:.3f}, promised {most}")
         if worst > AGREEMENT_MGAL:
             failures.append(f"{name}: hidden references and left_out_mgal differ by {worst:.3f} mGal, limit {AGREEMENT_MGAL}")
+    if not means:
+        line.error(f"CASE = {options.case}: no case has it in its name")
     quiet, noisy = (means.get((f"{name}, units within 25 %, 1 set-up", "out of sample")) for name in ("quiet", "roadside"))
     if quiet and noisy:
         print(f"error of roadside divided by quiet: {noisy / quiet:.3f}, promised 0.9 to 1.1")
@@ -168,5 +161,4 @@ with Scratch() as scratch, concurrent.futures.ThreadPoolExecutor(len(os.sched_ge
         print(f"{SURVEYS} surveys, seeds from {first}: {text}")
         if not (0.60 <= one <= 0.76 and two >= 0.92):
             failures.append(f"intervals: {text}; promised 60 to 76 % and 92 % or more")
-print("\n".join(f"NOT REACHED: {failure}" for failure in failures) or "all promises kept")
-sys.exit(bool(failures))
+end_with(failures)

@@ -21,6 +21,11 @@ pages = {path.name: path for path in FILES if path.suffix == ".md" and path.name
 dead = [f"{page.relative_to(TOP)}: {link}" for page in FILES if page.suffix == ".md"
         for link in LINK.findall(page.read_text()) if "://" not in link and not (page.parent / link).exists()]
 demand(f"every link of a page leads to a file; not {dead}", not dead)
+# Pages of tests/golden name files of other projects, and CODE is a place holder.
+shown = [(page, file) for page in FILES if page.suffix == ".md" and "golden" not in page.parts
+         for file in re.findall(r"`((?:[\w-]+/)+[\w.-]+\.(?:cpp|hpp|py|md|po|sh|cmake))`", page.read_text())]
+lost = [f"{page.relative_to(TOP)}: {file}" for page, file in shown if "CODE" not in file and not any(str(path).endswith(f"/{file}") for path in FILES)]
+demand(f"each of {len(shown)} source files that pages name is there; not {lost}", shown and not lost)
 texts = [path for path in FILES if path.suffix in {".md", ".hpp", ".cpp", ".py"} or path.suffix[1:].isdigit()]
 named = [(path, page, name) for path in texts for page, name in PLACE.findall(path.read_text()) if page in pages]
 lost = [f"{path.relative_to(TOP)}: {page}, \"{name}\"" for path, page, name in named if name not in names_of(pages[page])]
