@@ -9,7 +9,7 @@ import re
 import shutil
 import time
 
-from programs import BIN, IS_SANITIZED, Scratch, demand, read_json, run, skip
+from programs import BIN, IS_SANITIZED, TOP, Scratch, demand, read_json, run, skip
 
 BUILD = BIN.parent
 SYSTEM_FILES = ["systemd/system/a351d@.service", "systemd/system/a351-stream@.service"]
@@ -125,6 +125,12 @@ def bill_of_materials(document, debs):
             headers = "".join(sorted(related[package]["STATIC_LINK"]))
             demand(f"{package}: the document lists the packages of its headers",
                    all(name in headers for name in ("libcli11-dev", "libstdc++", "libboost")))
+            # Headers without a library are code of others in the program.  Those of the kernel declare its interface only.
+            only = {name for name in related[package]["STATIC_LINK"] if name != "linux-libc-dev"
+                    and not any(re.match(r"[a-z+]+", name)[0] in library for library in linked)}
+            named = (TOP / "config/debian/copyright").read_text()
+            lost = sorted(name for name in only if re.sub(r"[\d.]+-dev", "-dev", name) not in named and name not in named)
+            demand(f"{package}: the copyright file names the sources of its headers without a library: {sorted(only)}, not {lost}", only and not lost)
     contained = {package: related[package].get("CONTAINS") for package in PACKAGES}
     demand(f"the only contained files of other packages are those of dygraphs in a351: {contained}",
            contained == {"a351": {"libjs-dygraphs"}, "a351-correct": None, "a351-doc": None, "a351-sim": None})
