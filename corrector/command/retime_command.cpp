@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "corrector/archive_series/wrong_profile.hpp"
 #include "corrector/command/commands.hpp"
 #include "corrector/command/options.hpp"
 #include "protocol/archive/retime.hpp"
@@ -22,6 +23,10 @@ archive::RetimeReport retimed(const RetimeOptions& options) {
     files::FileLayer& files = files::posix_files();
     const wire::DeviceProfile* const profile =
         options.profile.empty() ? nullptr : &wire::profile_option("--profile", options.profile);
+    if (profile != nullptr)
+        if (const auto remark = archive_series::refuse_wrong_profile(options.root, *profile);
+            !remark.empty())
+            print_warnings({remark});
     return archive::retime(files, options.root, options.out, profile,
                            [&](const auto&... args) { station::describe_again(files, args...); });
 }
@@ -42,7 +47,8 @@ void run(const RetimeOptions& options) {
     }
     if (report.unsynchronised_runs > 0)
         std::cerr << fmt::format(
-            "a351-correct: in {} of {} runs the host's clock was never synchronised: nothing corrects "
+            "a351-correct: in {} of {} runs the host's clock was never synchronised: nothing "
+            "corrects "
             "their times\n",
             report.unsynchronised_runs, report.counters.sessions);
     std::cout << fmt::format(

@@ -9,6 +9,7 @@
 
 #include "corrector/archive_series/sample_grid.hpp"
 #include "corrector/archive_series/samples.hpp"
+#include "corrector/archive_series/wrong_profile.hpp"
 #include "corrector/reading/moved_stay.hpp"
 #include "corrector/reading/occupation_window.hpp"
 #include "corrector/reading/refused.hpp"
@@ -23,7 +24,7 @@ namespace a351::corrector::reading {
 namespace {
 
 using archive_series::Epoch, archive_series::kOuter, archive_series::kTemperature,
-    archive_series::kVertical, archive_series::last_sample;
+    archive_series::kVertical, archive_series::kWrongProfile, archive_series::last_sample;
 using Samples = std::vector<archive::ChannelData>;
 
 constexpr std::chrono::minutes kMargin(1);   // reach of the temperature's filters, 9 s, and more
@@ -61,11 +62,6 @@ std::vector<text::InputFile> inputs_of(const SurveySource& source, const SurveyS
     for (const auto& file : files) add("archive", file);
     return inputs;
 }
-
-/// Cause and remedy of values that no sensor sends.
-constexpr const char* kWrongProfile = text::marked(
-    "no sensor sends such values: its profile was wrong; find the right one with a351d --config "
-    "FILE --identify, and write the archive again with a351-correct retime --profile");
 
 /// Returns the temperature from kBefore before the first occupation to the end of the last.
 std::optional<DayTemperature> temperature_of_day(const Samples& samples, const Epoch& epoch,

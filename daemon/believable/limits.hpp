@@ -81,8 +81,4 @@ inline constexpr int kConfirm_s = 6;
 /// Gap of the samples after which the watch begins again, s: another sensor may be there.
 inline constexpr double kLongGap_s = 10.0;
 
-/// Largest relative error of the sample rate.  A crystal clock is within 0.0001, and a declared rate
-/// must be within 0.001 (a351d.toml(5)); the nearest wrong rate is 2 times.
-inline constexpr double kMostRateError = 0.005;
-
 }  // namespace a351::daemon::believable

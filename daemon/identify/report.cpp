@@ -111,11 +111,11 @@ private:
                             received_.frames.size(), size, received_.skipped));
         if (received_.rate_hz <= 0.0) return add(Verdict::unseen, "rate", "too few frames");
         const int rate_hz = expected_.settings.output_rate_hz;
-        compare(is_near(received_.rate_hz, rate_hz, believable::kMostRateError), "rate",
+        compare(is_near(received_.rate_hz, rate_hz, kMostRateError), "rate",
                 fmt::format("{:.3f} frames a second, expected {} within 0.5 %", received_.rate_hz,
                             rate_hz));
         const double tick_hz = received_.rate_hz * received_.count_step;
-        compare(is_near(tick_hz, profile_.internal_rate_hz, believable::kMostRateError), "tick",
+        compare(is_near(tick_hz, profile_.internal_rate_hz, kMostRateError), "tick",
                 fmt::format("COUNT rises by {} a frame, {:.1f} a second, expected {} within 0.5 %",
                             received_.count_step, tick_hz, profile_.internal_rate_hz));
     }

@@ -26,4 +26,8 @@ inline constexpr DegC kColdest(-40.0), kHottest(90.0);
     return temperature >= kColdest && temperature <= kHottest;
 }
 
+/// Largest relative error of the sample rate.  A crystal clock is within 0.0001, and a declared rate
+/// must be within 0.001 (a351d.toml(5)); the nearest wrong rate is 2 times.
+inline constexpr double kMostRateError = 0.005;
+
 }  // namespace a351
