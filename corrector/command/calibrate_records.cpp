@@ -113,6 +113,8 @@ std::string calibrate_from_records(unit::Calibration& calibration,
         "no warm-up guidance: needed: a record that begins at most half an hour "
         "after the sensor was switched on, with --power-on"};
     std::string text;
+    for (const long_record::RefusedPart& part : parts.refused)
+        text += fmt::format("from {} {}\n", to_rfc3339(part.start), part.reason);
     std::vector<long_record::TwoPathFit> fits;
     std::vector<std::string> lacks;
     for (long_record::RecordSegment segment : parts.segments) {

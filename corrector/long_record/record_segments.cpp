@@ -8,7 +8,10 @@
 #include <limits>
 #include <span>
 
+#include "corrector/archive_series/wrong_profile.hpp"
 #include "corrector/reading/disturbance.hpp"
+#include "protocol/core/sensor_limits.hpp"
+#include "protocol/core/units.hpp"
 #include "protocol/signal/median.hpp"
 #include "protocol/text/aligned_text.hpp"
 
@@ -99,10 +102,10 @@ void remove_coarse_runs(std::vector<EqualRun>& runs, const std::vector<double>& 
     }
 }
 
-Valid valid_samples(const RecordStretch& stretch, const std::vector<bool>& is_stuck) {
+Valid valid_samples(const RecordStretch& stretch, const std::vector<bool>& is_refused) {
     Valid valid;
     for (std::size_t i = 0; i < stretch.size(); ++i) {
-        if (is_stuck[i] || !std::isfinite(stretch.quantity[i]) ||
+        if (is_refused[i] || !std::isfinite(stretch.quantity[i]) ||
             !std::isfinite(stretch.temperature_degc[i]))
             continue;
         valid.places.push_back(i);
@@ -170,8 +173,8 @@ public:
 
 private:
     void add_stretch(const RecordStretch& stretch) {
-        const std::vector<bool> is_stuck = refuse_stuck_channels(stretch);
-        const Valid valid = valid_samples(stretch, is_stuck);
+        const std::vector<bool> is_refused = refuse_values(stretch);
+        const Valid valid = valid_samples(stretch, is_refused);
         if (valid.size() == 0) return;
         const std::vector<double> steps = find_steps(valid.quantity);
         std::size_t first = 0;
@@ -180,7 +183,7 @@ private:
             Begin next;
             if (i < valid.size()) {
                 if (valid.places[i] - valid.places[i - 1] - 1 > kLongestBridge)
-                    next = begin_at(stretch, is_stuck, valid, i);
+                    next = begin_at(stretch, is_refused, valid, i);
                 else if (steps[i] != 0.0)
                     next.why =
                         text::message("step of {} {}", text::fixed(steps[i], 1), record_.unit);
@@ -194,31 +197,60 @@ private:
         last_temperature_ = level(valid, valid.size() - std::min(valid.size(), kBeside));
     }
 
-    std::vector<bool> refuse_stuck_channels(const RecordStretch& stretch) {
-        std::vector<bool> is_stuck(stretch.size(), false);
+    std::vector<bool> refuse_values(const RecordStretch& stretch) {
+        std::vector<bool> is_refused(stretch.size(), false);
+        refuse_unbelievable(is_refused, stretch);
         std::vector<EqualRun> still = equal_runs(stretch.temperature_degc, kSame_degc);
         remove_coarse_runs(still, stretch.temperature_degc, kSame_degc);
-        refuse_stuck(is_stuck, stretch, stretch.temperature_degc, still,
+        refuse_stuck(is_refused, stretch, stretch.temperature_degc, still,
                      text::marked("the temperature"), "degC");
         // The norm has the tide subtracted, so it varies even if the sensor is stuck.  The axes
         // still contain the tide: they are tested if the record has them.
         constexpr std::array kNames{text::marked("the x axis"), text::marked("the y axis"),
                                     text::marked("the z axis")};
         if (stretch.axes_mgal.empty())
-            refuse_stuck(is_stuck, stretch, stretch.quantity,
+            refuse_stuck(is_refused, stretch, stretch.quantity,
                          equal_runs(stretch.quantity, kSame_mgal), text::marked("the acceleration"),
                          "mGal");
         for (std::size_t k = 0; k < stretch.axes_mgal.size(); ++k)
-            refuse_stuck(is_stuck, stretch, stretch.axes_mgal[k],
+            refuse_stuck(is_refused, stretch, stretch.axes_mgal[k],
                          equal_runs(stretch.axes_mgal[k], kSame_mgal), kNames.at(k), "mGal");
-        return is_stuck;
+        return is_refused;
     }
 
-    void refuse_stuck(std::vector<bool>& is_stuck, const RecordStretch& stretch,
+    /// Refuses values that no sensor sends.  A norm alone may be relative to another one.
+    void refuse_unbelievable(std::vector<bool>& is_refused, const RecordStretch& stretch) {
+        const auto& axes = stretch.axes_mgal;
+        const auto reason_at = [&](std::size_t i) -> text::Message {
+            const double norm_mgal =
+                axes.empty() ? kNaN : std::hypot(axes[0][i], axes[1][i], axes[2][i]);
+            const StandardGravity norm = to_standard_gravity(MilliGal(norm_mgal));
+            const DegC temperature(stretch.temperature_degc[i]);
+            if (std::isfinite(norm_mgal) && !is_norm_believable(norm))
+                return text::message("the acceleration reads {} g: {}",
+                                     text::fixed(norm.value(), 2),
+                                     text::marked_message(archive_series::kWrongProfile));
+            if (std::isfinite(temperature.value()) && !is_temperature_believable(temperature))
+                return text::message("the temperature reads {} degC: {}",
+                                     text::fixed(temperature.value(), 1),
+                                     text::marked_message(archive_series::kWrongProfile));
+            return {};
+        };
+        for (std::size_t i = 0; i < stretch.size(); ++i) {
+            text::Message reason = reason_at(i);
+            if (reason.empty()) continue;
+            if (i == 0 || !is_refused[i - 1])
+                result_.refused.push_back({stretch.times[i], stretch.times[i], std::move(reason)});
+            result_.refused.back().end = stretch.times[i];
+            is_refused[i] = true;
+        }
+    }
+
+    void refuse_stuck(std::vector<bool>& is_refused, const RecordStretch& stretch,
                       const std::vector<double>& values, const std::vector<EqualRun>& still,
                       const char* name, const char* unit) {
         for (const EqualRun& run : still) {
-            std::fill_n(is_stuck.begin() + static_cast<std::ptrdiff_t>(run.first), run.size(),
+            std::fill_n(is_refused.begin() + static_cast<std::ptrdiff_t>(run.first), run.size(),
                         true);
             result_.refused.push_back(
                 {stretch.times[run.first], stretch.times[run.end - 1],
@@ -241,11 +273,11 @@ private:
     }
 
     [[nodiscard]] static Begin begin_at(const RecordStretch& stretch,
-                                        const std::vector<bool>& is_stuck, const Valid& valid,
+                                        const std::vector<bool>& is_refused, const Valid& valid,
                                         std::size_t i) {
         const std::size_t before = valid.places[i - 1], after = valid.places[i];
         for (std::size_t k = before + 1; k < after; ++k)
-            if (is_stuck[k]) return {text::message("end of the stuck values")};
+            if (is_refused[k]) return {text::message("end of the refused values")};
         return begin_after_gap(
             seconds_between(stretch.times[before], stretch.times[after]),
             level(valid, i) - median_of(valid.temperature_degc, i - std::min(i, kBeside), i));

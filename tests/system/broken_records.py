@@ -102,7 +102,7 @@ with Scratch() as scratch:
     reason = f"the temperature is stuck at {float(table[middle]['temperature_degc']):.4f} degC"
     demand("an hour of stuck temperature is refused with its value, and the record before and after it is analysed",
            [part["reason"] for part in result["refused"]] == [reason] and len(result["segments"]) == 2 and
-           sum(samples_of(result)) == count - stuck and begins(result)[1] == "end of the stuck values")
+           sum(samples_of(result)) == count - stuck and begins(result)[1] == "end of the refused values")
 
     demand_refused(scratch, "temperature stuck throughout", reason, write(
         scratch, table, lambda i, row: [row[0], row[1], table[middle]["temperature_degc"]]))

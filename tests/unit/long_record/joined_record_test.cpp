@@ -21,7 +21,7 @@ LongRecord part(double step_s, double from_s, double to_s, bool has_axes = false
     const auto count = static_cast<int>(std::lround((to_s - from_s) / step_s));
     for (int i = 0; i < count; ++i) {
         const double time_s = from_s + step_s * i, wave = std::sin(time_s / 143.0);
-        const std::string value = std::to_string(0.999 + 1e-6 * wave);
+        const std::string value = std::to_string(0.577 + 1e-6 * wave);  // of each axis
         text +=
             std::to_string(time_s) + "," +
             (has_axes ? value + "," + value + "," + value : std::to_string(979763.0 + 3.0 * wave)) +

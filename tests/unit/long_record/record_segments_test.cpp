@@ -78,6 +78,31 @@ TEST_CASE("a power cycle is recognised as a restart by the temperature change ac
     CHECK_THAT(parts.segments[1].begins_with, EndsWith("a restart"));
 }
 
+TEST_CASE("values that no sensor sends are refused with the remedy", "[long_record][segments]") {
+    LongRecord record = night();
+    RecordStretch& stretch = record.stretches[0];
+    stretch.axes_mgal.resize(3);
+    for (std::size_t i = 0; i < stretch.size(); ++i) {
+        const double wiggle = static_cast<double>(i % 7);  // so that no axis is stuck
+        stretch.axes_mgal[0].push_back(wiggle);
+        stretch.axes_mgal[1].push_back(wiggle);
+        stretch.axes_mgal[2].push_back((i < 500 ? 0.5 : 1.0) * 980'000.0 + wiggle);
+        if (i >= 1500) stretch.temperature_degc[i] += 100.0;
+    }
+    const RecordSegments parts = divide_record(record);
+    REQUIRE(parts.segments.size() == 1);
+    CHECK(parts.segments[0].size() == 1000);
+    CHECK(parts.segments[0].start == stretch.times[500]);
+    CHECK(parts.segments[0].begins_with == "the record begins");
+    REQUIRE(parts.refused.size() == 2);
+    CHECK(parts.refused[0].end == stretch.times[499]);
+    CHECK_THAT(parts.refused[0].reason, StartsWith("the acceleration reads 0.50 g: no sensor"));
+    CHECK(parts.refused[1].start == stretch.times[1500]);
+    CHECK(parts.refused[1].end == stretch.times.back());
+    CHECK_THAT(parts.refused[1].reason, StartsWith("the temperature reads 142.") &&
+                                            ContainsSubstring("a351-correct retime --profile"));
+}
+
 TEST_CASE("a stuck temperature is refused with its value, and so is a remainder that is too short",
           "[long_record][segments]") {
     LongRecord record = night();
@@ -88,7 +113,7 @@ TEST_CASE("a stuck temperature is refused with its value, and so is a remainder 
     REQUIRE(parts.refused.size() == 2);
     CHECK(parts.refused[0].reason == "the temperature is stuck at 42.5000 degC");
     CHECK_THAT(parts.refused[1].reason,
-               StartsWith("too short: 0.89 h") && ContainsSubstring("end of the stuck values"));
+               StartsWith("too short: 0.89 h") && ContainsSubstring("end of the refused values"));
 }
 
 TEST_CASE("a coarse thermometer in a good oven is not stuck, but one that continues elsewhere is",
@@ -133,6 +158,7 @@ TEST_CASE("a stuck axis is refused, even if a changing tide was taken off the no
     LongRecord record = night();
     RecordStretch& stretch = record.stretches[0];
     stretch.axes_mgal.assign(3, stretch.quantity);
+    for (double& z_mgal : stretch.axes_mgal[2]) z_mgal += 979763.0;
     CHECK(divide_record(record).segments.size() == 1);
     stretch.axes_mgal[2].assign(2160, 979763.0);
     for (std::size_t i = 0; i < 2160; ++i)
