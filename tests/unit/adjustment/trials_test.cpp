@@ -1,6 +1,7 @@
 // Alternatives as updates of one factorisation, beside dense least squares with one more column each.
 #include "corrector/adjustment/trials.hpp"
 
+#include <array>
 #include <cmath>
 #include <random>
 #include "tests/support/catch.hpp"
@@ -180,4 +181,19 @@ TEST_CASE("residuals that are drawn have the stated information", "[adjustment][
     // Standard errors: 2.2 % of a variance, and sqrt(2 / dof) / sqrt(4000) of the scatter.
     CHECK(squares / kDraws == Approx(residuals->information(effect, effect)).epsilon(0.08));
     CHECK(scatter / kDraws == Approx(residuals->dof()).epsilon(0.03));
+}
+
+TEST_CASE("a pause of a day continues a gravimeter's loop, a night begins another one",
+          "[adjustment][loops]") {
+    std::vector<reading::SurveyRow> rows(4);
+    const std::array hours{0.0, 6.8, 7.0, 19.9};  // pauses of tests/golden: usgs and igp
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        rows[i].time =
+            parse_rfc3339("2024-06-12T06:00:00Z").value() + from_seconds(3600.0 * hours.at(i));
+        rows[i].instrument = "CG-5 9379";
+        rows[i].loop = 1;
+    }
+    CHECK(loop_numbers(rows) == std::vector<std::size_t>{0, 0, 0, 1});
+    rows[2].loop = 2;
+    CHECK(loop_numbers(rows) == std::vector<std::size_t>{0, 0, 1, 2});
 }
