@@ -180,6 +180,53 @@ void end_with_record(std::vector<OccupationWindow>& windows, const archive::Chan
         if (window.is_last && end > window.start) window.end = std::min(window.end, end);
 }
 
+/// Adds the rows of the set-ups to the result, with their samples and findings; a set-up with trouble is
+/// left out.
+/// @return the windows of the rows.
+std::vector<OccupationWindow> add_rows(OccupationRows& result, std::vector<AveragedSetUp>& set_ups,
+                                       const std::vector<OccupationWindow>& windows,
+                                       const SurveyStays& stays, bool is_tumbled) {
+    std::vector<OccupationWindow> averaged;
+    for (std::size_t i = 0; i < windows.size(); ++i) {
+        AveragedSetUp& set_up = set_ups[i];
+        if (set_up.moved) result.findings.push_back(std::move(*set_up.moved));
+        if (!set_up.trouble.empty()) {
+            leave_out(result.left_out, result.warnings, windows[i], set_up.trouble);
+            continue;
+        }
+        for (DayBin& bin : set_up.bins) {
+            bin.set_up = result.rows.size();
+            if (result.day && !result.day->temperature.is_bridged(bin.time))
+                result.day->bins.push_back(std::move(bin));
+        }
+        if (auto finding = is_tumbled ? std::nullopt : other_face(windows[i], set_up.face))
+            result.findings.push_back(std::move(*finding));
+        result.rows.push_back(row_of(set_up, stays));
+        result.records.push_back(std::move(*set_up.value));
+        averaged.push_back(std::move(set_up.window));
+    }
+    return averaged;
+}
+
+/// Refuses a survey without a row.
+[[noreturn]] void refuse_all(const SurveySource& source, const std::vector<AveragedSetUp>& set_ups,
+                             const std::vector<text::Message>& warnings,
+                             const std::vector<archive::AbsentFile>& absent) {
+    const std::string origin = source.path.empty()
+                                   ? source.root.string()
+                                   : source.path.string() + ": root = " + source.root.string();
+    if (std::ranges::find(set_ups, kWrongProfile, &AveragedSetUp::trouble) != set_ups.end())
+        throw Refused("no_reading",
+                      fmt::format("{}: no occupation can be used: {}", origin, kWrongProfile));
+    const text::Message cause =
+        absent.empty() ? warnings.back() : archive_series::to_message(absent.front());
+    throw Refused(
+        "no_reading",
+        fmt::format(
+            "{}: no occupation has samples: {}; allowed: an archive that covers these hours",
+            origin, cause));
+}
+
 }  // namespace
 
 OccupationRows average_occupations(const SurveySource& source, const SurveyStays& stays,
@@ -238,40 +285,9 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
         archive_series::add_damage(result.warnings, channel);
     if (auto remark = archive_series::rate_remark(samples); !remark.empty())
         result.warnings.push_back(std::move(remark));
-    std::vector<OccupationWindow> averaged;
-    for (std::size_t i = 0; i < windows.size(); ++i) {
-        AveragedSetUp& set_up = set_ups[i];
-        if (set_up.moved) result.findings.push_back(std::move(*set_up.moved));
-        if (!set_up.trouble.empty()) {
-            leave_out(result.left_out, result.warnings, windows[i], set_up.trouble);
-            continue;
-        }
-        for (DayBin& bin : set_up.bins) {
-            bin.set_up = result.rows.size();
-            if (result.day && !result.day->temperature.is_bridged(bin.time))
-                result.day->bins.push_back(std::move(bin));
-        }
-        if (auto finding = source.is_tumbled ? std::nullopt : other_face(windows[i], set_up.face))
-            result.findings.push_back(std::move(*finding));
-        result.rows.push_back(row_of(set_up, stays));
-        result.records.push_back(std::move(*set_up.value));
-        averaged.push_back(std::move(set_up.window));
-    }
-    if (result.rows.empty()) {
-        const std::string origin = source.path.empty()
-                                       ? source.root.string()
-                                       : source.path.string() + ": root = " + source.root.string();
-        if (std::ranges::find(set_ups, kWrongProfile, &AveragedSetUp::trouble) != set_ups.end())
-            throw Refused("no_reading",
-                          fmt::format("{}: no occupation can be used: {}", origin, kWrongProfile));
-        const text::Message cause =
-            absent.empty() ? result.warnings.back() : archive_series::to_message(absent.front());
-        throw Refused(
-            "no_reading",
-            fmt::format(
-                "{}: no occupation has samples: {}; allowed: an archive that covers these hours",
-                origin, cause));
-    }
+    const std::vector<OccupationWindow> averaged =
+        add_rows(result, set_ups, windows, stays, source.is_tumbled);
+    if (result.rows.empty()) refuse_all(source, set_ups, result.warnings, absent);
     for (Finding& remark : stay_remarks(averaged, samples[kVertical]))
         result.findings.push_back(std::move(remark));
     result.findings.insert(result.findings.end(), findings.begin(), findings.end());

@@ -1,4 +1,4 @@
-#include "corrector/model/corrected_survey.hpp"
+#include "corrector/model/corrected_row.hpp"
 
 #include <algorithm>
 
