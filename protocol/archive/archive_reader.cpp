@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 #include <span>
+#include <utility>
 
 #include "protocol/archive/record_joiner.hpp"
 #include "protocol/archive/sds.hpp"
@@ -125,6 +126,10 @@ void RecordJoiner::take(const DecodedRecord& record) {
     segment.anchors.push_back({segment.counts.size(), time_of(first),
                                record.header.is_time_questionable,
                                record.header.timing_quality_percent});
+    // At least twice as much as before, so that a segment of many days is not copied every day.
+    if (const std::size_t needed = segment.counts.size() + std::exchange(expected_, 0) * count;
+        needed > segment.counts.capacity())
+        segment.counts.reserve(std::max(needed, 2 * segment.counts.capacity()));
     segment.counts.insert(segment.counts.end(),
                           record.samples.begin() + static_cast<std::ptrdiff_t>(first),
                           record.samples.begin() + static_cast<std::ptrdiff_t>(last));
@@ -158,6 +163,7 @@ ChannelData read_records(const fs::path& archive, const journal::StationCodes& c
          day_files(archive, codes, channel, from, to)) {  // no record crosses midnight
         const auto bytes = files::read_bytes(file);
         RecordsSeen seen(bytes);
+        joiner.expect(bytes.size() / kRecordSize);
         for (std::size_t at = 0; at < bytes.size();) {
             const std::size_t unread = at;
             const auto record = next_record(bytes, channel, at);

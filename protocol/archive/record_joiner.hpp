@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <utility>
 
 #include "protocol/archive/archive_reader.hpp"
@@ -17,6 +18,10 @@ public:
                  std::optional<RateConflict> wrong = {})
         : data_(data), from_(from), to_(to), wrong_(std::move(wrong)) {}
 
+    /// Reserves space for the samples of a file with so many records, when its first record is added.
+    /// A segment of a day that grows without this is copied again and again.
+    void expect(std::size_t records) { expected_ = records; }
+
     /// Adds a record; one that begins within half a sample of the end of the last one continues it.
     void take(const DecodedRecord& record);
 
@@ -24,6 +29,7 @@ private:
     ChannelData& data_;
     UtcTime from_, to_;
     std::optional<RateConflict> wrong_;
+    std::size_t expected_ = 0;  ///< Records for which no space is reserved yet.
 };
 
 }  // namespace a351::archive
