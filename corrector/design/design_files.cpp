@@ -86,12 +86,7 @@ std::string design_json(const Design& design, const std::vector<text::InputFile>
     Json json;
     json["program"] = "a351-correct";
     json["version"] = A351_VERSION;
-    json["inputs"] = Json::array();
-    for (const text::InputFile& input : inputs)
-        json["inputs"].push_back({{"role", input.role},
-                                  {"name", input.name},
-                                  {"byte_count", input.byte_count},
-                                  {"crc32", input.crc32}});
+    json["inputs"] = inputs;
     const PlannedUnit& unit = design.unit;
     json["unit"] = {
         {"origin", unit.origin},

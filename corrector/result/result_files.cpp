@@ -122,13 +122,7 @@ std::string result_json(const model::SurveyCorrection& result, const Json& setti
     json["program"] = "a351-correct";
     json["version"] = A351_VERSION;
     json["settings"] = settings;
-    json["inputs"] = Json::array();
-    for (const text::InputFile& input : inputs) {
-        json["inputs"].push_back({{"role", input.role},
-                                  {"name", input.name},
-                                  {"byte_count", input.byte_count},
-                                  {"crc32", input.crc32}});
-    }
+    json["inputs"] = inputs;
     json["model"] = result.model;
     json["base"] = result.options.base;
     if (result.as<model::WholeDayPart>() == nullptr) {
