@@ -5,10 +5,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "corrector/whole_day/day_priors.hpp"
+
 namespace a351::corrector::design {
 namespace {
 
-constexpr double kSetPoint_degc = 42.5;  // of the publication's oven
 // Cycle of the publication's oven: 10 to 15 min, about 0.02 degC peak to peak.
 constexpr double kCycle_s = 900.0, kCycle_degc = 0.01;
 constexpr double kTemperatureRate_hz = 0.5;  // that of the day's smoothed temperature at 50 Hz
@@ -61,7 +62,7 @@ TimeSeries<DegC> planned_temperature(UtcTime start, UtcTime end, double walk_deg
         for (std::size_t i = 0; i < degc.size(); ++i)
             degc[i] += degc_peak * std::cos(step * static_cast<double>(i) + phase_rad);
     };
-    std::ranges::fill(degc, kSetPoint_degc);
+    std::ranges::fill(degc, whole_day::kOvenSetPoint_degc);
     for (std::size_t wave = 0; wave < kWaves_h.size(); ++wave)
         add(amplitude * std::sqrt(kWaves_h.at(wave)), kSecondsPerHour * kWaves_h.at(wave),
             phase(course, wave));
