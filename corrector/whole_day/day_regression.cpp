@@ -306,7 +306,13 @@ Eigen::MatrixXd DayRegression::scaled(const Point& u) const {
     for (Index k = 0; k < on_scale(); ++k)
         terms.col(static_cast<Index>(kOnScale.at(static_cast<std::size_t>(k)))) +=
             scale_share(u) * x.col(on_scale_begin() + k);
-    columns.middleCols(1, kTerms) = terms * prior_factor(u).bottomRightCorner<kTerms, kTerms>();
+    // Most of the factor is 0: the product of the matrices takes nearly three times the instructions.
+    const DayPriors::Matrix factor = prior_factor(u);
+    columns.middleCols(1, kTerms).setZero();
+    for (Index k = 0; k < kTerms; ++k)
+        for (Index j = 0; j < kTerms; ++j)
+            if (const double share = factor(kLags + j, kLags + k); share != 0.0)
+                columns.col(1 + k) += share * terms.col(j);
     columns.middleCols(1 + kTerms, gravity_sd_mgal_.size()) =
         x.middleCols(kTerms, gravity_sd_mgal_.size()) * gravity_sd_mgal_.asDiagonal();
     columns.middleCols(1 + states_begin(), states_sd_mgal_.size()) =
