@@ -75,6 +75,7 @@ void ask(const source::LinkOptions& link, source::Port& port, const source::Host
     seen.device = handshake.identity();
     seen.start_up_test = handshake.start_up_test();
     seen.registers = handshake.registers();
+    seen.repeated_reads = handshake.repeated_reads();
     seen.has_answered = !seen.registers.empty();
     seen.trouble.clear();
     if (const auto* failure = std::get_if<wire::HandshakeFailure>(&run.outcome)) {

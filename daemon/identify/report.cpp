@@ -82,6 +82,13 @@ private:
                     serial_number + ", expected " + expected_.serial_number);
     }
 
+    /// Returns the end of the line about registers; empty if each answer came in time.
+    [[nodiscard]] std::string asked_again() const {
+        if (seen_.repeated_reads == 0) return "";
+        return fmt::format("; reads repeated because an answer was late, lost or wrong: {}",
+                           seen_.repeated_reads);
+    }
+
     void judge_registers() {
         std::string silent;
         for (const auto& [reg, value] : seen_.registers)
@@ -90,8 +97,9 @@ private:
             add(Verdict::unseen, "registers", "not read");
         else
             compare(silent.empty(), "registers",
-                    silent.empty() ? fmt::format("{} answered", seen_.registers.size())
-                                   : "no answer from " + silent);
+                    (silent.empty() ? fmt::format("{} answered", seen_.registers.size())
+                                    : "no answer from " + silent) +
+                        asked_again());
         compare(seen_.trouble.empty(), "settings",
                 seen_.trouble.empty() ? "the sensor took all of them" : seen_.trouble);
         compare(seen_.baud == expected_.baud, "baud rate",

@@ -126,6 +126,7 @@ void Handshake::queue_read() {
 
 void Handshake::retry(std::string reason) {
     if (--tries_left_ == 0) return fail(std::move(reason));
+    ++repeated_reads_;
     queue_.push_back(Transmit{{kEndByte}});
     if (config_) {
         queue_.push_back(kShortDrain);
@@ -141,15 +142,16 @@ void Handshake::fail(std::string reason) {
 
 void Handshake::take_answer(std::span<const std::byte> answer) {
     const auto value = parse_answer(*asked_, answer);
-    if (take_ == nullptr) {
-        if (!value) queue_.push_back(kShortDrain);
-        registers_.push_back({asked_, value});
-        return ask_register();
-    }
-    if (!value) {
+    const bool is_required = take_ != nullptr;
+    if (!value && (is_required || tries_left_ > 1)) {
         is_result_lost_ |= asked_ == &kDiagStat;
         return retry(fmt::format("{}: expected an answer of 4 bytes, found none in {} tries",
                                  asked_->name, kTries));
+    }
+    if (!is_required) {
+        if (!value) queue_.push_back(kShortDrain);
+        registers_.push_back({asked_, value});
+        return ask_register();
     }
     has_answered_ = true;
     (this->*take_)(*value);

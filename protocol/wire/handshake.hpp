@@ -152,7 +152,7 @@ public:
     [[nodiscard]] StartUpTest start_up_test() const noexcept { return start_up_test_; }
 
     /// Makes the handshake also read each of kRegisters, before it writes a setting.  A register that
-    /// does not answer is no failure.  Call it before next().
+    /// does not answer in three tries is no failure.  Call it before next().
     void read_all_registers() noexcept { reads_all_registers_ = true; }
 
     /// Return what was read so far, also after a failure.
@@ -160,6 +160,9 @@ public:
     [[nodiscard]] const std::vector<RegisterValue>& registers() const noexcept {
         return registers_;
     }
+
+    /// Returns how many reads were repeated because an answer was late, lost or wrong.
+    [[nodiscard]] int repeated_reads() const noexcept { return repeated_reads_; }
 
     /// Returns the next step.  After Sampling or HandshakeFailure it returns the same step again.
     ///
@@ -214,6 +217,7 @@ private:
     bool is_waiting_for_answer_ = false;
     bool has_answered_ = false;
     int tries_left_ = 0;
+    int repeated_reads_ = 0;
     int polls_left_ = 0;
     int writes_left_ = 0;
     std::size_t identity_index_ = 0;

@@ -240,6 +240,12 @@ TEST_CASE("baud rate, serial number, start-up test and silent registers are comp
     CHECK_THAT(only_difference(report_on(seen, expected_a351()), "start-up test"),
                Contains("HARD_ERR"));
     seen = MadeUpSensor{}.observe();
+    CHECK_THAT(line_of(report_on(seen, expected_a351()), "registers").finding,
+               Contains(" answered") && !Contains("repeated"));
+    seen.repeated_reads = 2;
+    CHECK_THAT(line_of(report_on(seen, expected_a351()), "registers").finding,
+               Contains(" answered; reads repeated because an answer was late, lost or wrong: 2"));
+    seen.repeated_reads = 0;
     seen.registers[3].value.reset();
     CHECK(only_difference(report_on(seen, expected_a351()), "registers") == "no answer from FLAG");
     seen = MadeUpSensor{}.observe();

@@ -43,7 +43,7 @@ TEST_CASE("a device with factory settings is brought to sampling with the reques
 TEST_CASE("on request each register is read before a setting is written, also one that is silent",
           "[wire][handshake]") {
     ScriptedRegisters device;
-    device.unanswered[ScriptedRegisters::key(kBurstCtrl)] = 1;
+    device.unanswered[ScriptedRegisters::key(kBurstCtrl)] = 3;  // a read is tried three times
     Handshake handshake(kProfile, {});
     handshake.read_all_registers();
     check_sampling_as_asked(run_handshake(handshake, device), device);
@@ -57,6 +57,26 @@ TEST_CASE("on request each register is read before a setting is written, also on
             CHECK(*value == reg->default_value);
     }
     CHECK(handshake.identity().product_id == "A352AD10");
+    CHECK(handshake.repeated_reads() == 2);
+}
+
+TEST_CASE(
+    "each register of a list whose first two answers are lost is read, and repeats are counted",
+    "[wire][handshake]") {
+    ScriptedRegisters device;
+    for (const Register& reg : kRegisters) device.unanswered[ScriptedRegisters::key(reg)] = 2;
+    Handshake handshake(kProfile, {});
+    handshake.read_all_registers();
+    check_sampling_as_asked(run_handshake(handshake, device), device);
+    REQUIRE(handshake.registers().size() == kRegisters.size());
+    for (const auto& [reg, value] : handshake.registers()) {
+        INFO(reg->name);
+        CHECK(value.has_value());
+    }
+    CHECK(handshake.repeated_reads() == 2 * static_cast<int>(kRegisters.size()));
+    Handshake undisturbed(kProfile, {});
+    run_handshake(undisturbed, device);
+    CHECK(undisturbed.repeated_reads() == 0);
 }
 
 TEST_CASE("each command is preceded by a window selection", "[wire][handshake]") {
