@@ -301,9 +301,10 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
         store.set_day_end(occupations.day_end());
     };
     if (occupations.running() || !occupations.list().empty()) note_change();
-    survey::SoFarReader reader;
+    const auto note = [&](const events::Event& event) { store.note(event); };
+    survey::SoFarReader reader(logged, note);
     const auto so_far = [&] { return reader.read(gravity.document()); };
-    survey::SignalLog signal_log(occupations, live, [&](const auto& event) { store.note(event); });
+    survey::SignalLog signal_log(occupations, live, note);
     survey::Word word = survey::Word::no_data;  // The page's thread uses it.
     const auto log_signal = [&] {
         if (!is_recovered) return;  // The last run has logged the words of what its journal left.

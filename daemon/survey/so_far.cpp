@@ -37,7 +37,22 @@ std::vector<Contradiction> contradictions_in(const json& document, const char* m
     return all;
 }
 
+constexpr const char* kEvent = "contradiction";
+
 }  // namespace
+
+SoFarReader::SoFarReader(const std::vector<events::Event>& events,
+                         std::function<void(const events::Event&)> note)
+    : note_(std::move(note)) {
+    for (const events::Event& event : events) {
+        const auto key = event.details.find("key"), code = event.details.find("code");
+        if (event.type != kEvent || key == event.details.end()) continue;
+        if (code == event.details.end())
+            said_.erase(key->second);
+        else
+            said_[key->second] = code->second;
+    }
+}
 
 SoFar SoFarReader::read(std::string_view document) {
     SoFar so_far;
@@ -52,7 +67,7 @@ SoFar SoFarReader::read(std::string_view document) {
             one.missing = text::parse_message(stay.at("missing_parts"), "");
     }
     so_far.contradictions = contradictions_in(read, "contradictions");
-    std::map<std::string, std::string> still;
+    Codes still;
     for (const Contradiction& one : so_far.contradictions)
         if (!one.key.empty()) still[one.key] = one.code;
     for (Contradiction& one : contradictions_in(read, "lesser_contradictions")) {
@@ -62,8 +77,26 @@ SoFar SoFarReader::read(std::string_view document) {
         one.code = before->second;
         so_far.contradictions.push_back(std::move(one));
     }
-    if (read.contains("lesser_contradictions")) said_ = std::move(still);  // New figures.
+    if (read.contains("lesser_contradictions"))  // New figures.
+        keep(std::move(still), parse_rfc3339(text_of(read, "data_to_utc")));
     return so_far;
+}
+
+/// Replaces the contradictions that stay, and logs each that begins, has another code or ends.
+/// @param data_end  end of the data of these figures; absent: nothing is logged.
+void SoFarReader::keep(Codes codes, const std::optional<UtcTime>& data_end) {
+    const auto log = [&](const std::string& key, const std::string& code) {
+        if (!data_end) return;
+        events::Event event{kEvent, *data_end, {}, {}, {{"key", key}}};
+        if (!code.empty()) event.details["code"] = code;
+        note_(event);
+    };
+    for (const auto& [key, code] : codes)
+        if (const auto before = said_.find(key); before == said_.end() || before->second != code)
+            log(key, code);
+    for (const auto& [key, code] : said_)
+        if (!codes.contains(key)) log(key, "");
+    said_ = std::move(codes);
 }
 
 }  // namespace a351::daemon::survey

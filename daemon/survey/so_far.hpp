@@ -2,6 +2,7 @@
 /// @file
 /// What the page takes from the gravity so far.
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -10,6 +11,7 @@
 
 #include "daemon/survey/signal.hpp"
 #include "protocol/core/units.hpp"
+#include "protocol/events/event_log.hpp"
 #include "protocol/text/message.hpp"
 
 namespace a351::daemon::survey {
@@ -30,15 +32,25 @@ struct SoFar {
 /// Reads the body of GET /api/survey.
 ///
 /// A contradiction that was read once stays while its stay has a lesser one, under the code that it
-/// had: the figures change a little with each sample, and the operator is to answer.  Not thread-safe:
-/// the page's thread owns it.
+/// had: the figures change a little with each sample, and the operator is to answer.  Its begin and its
+/// end are events, so that a restart changes nothing.  Not thread-safe: the page's thread owns it.
 class SoFarReader {
 public:
+    using Codes = std::map<std::string, std::string>;  ///< Codes of contradictions, by stay.
+
+    /// @param events  the event log so far, in file order.
+    /// @param note    writes an event.
+    SoFarReader(const std::vector<events::Event>& events,
+                std::function<void(const events::Event&)> note);
+
     /// Members that are not as expected are left out.
     [[nodiscard]] SoFar read(std::string_view document);
 
 private:
-    std::map<std::string, std::string> said_;  ///< Codes of the contradictions that stay, by stay.
+    void keep(Codes codes, const std::optional<UtcTime>& data_end);
+
+    std::function<void(const events::Event&)> note_;
+    Codes said_;  ///< Those that stay.
 };
 
 }  // namespace a351::daemon::survey

@@ -219,6 +219,40 @@ TEST_CASE("a contradiction stays after the stop until it is checked or the figur
     }
 }
 
+TEST_CASE("after a restart the same lesser contradictions stay as without one", "[daemon][page]") {
+    Page page;
+    page.status.now = page.status.last_sample.emplace(minute(30));
+    page.status.verdict.state = verdict::State::stable;
+    const auto restart = [&] {
+        page.reader = {page.recorder.log, [&](const auto& event) { page.recorder.note(event); }};
+    };
+    const auto signal_with = [&](const std::string& member, const std::string& code) {
+        page.gravity_so_far =
+            R"({"data_to_utc":"2026-03-14T08:29:00.000Z","lesser_contradictions":[],")" + member +
+            R"(":[{"code":")" + code + R"(","key":"20260314T081000Z","text":"11.6 mGal off"}]})";
+        return page.ask(get("/api/status"))["signal"];
+    };
+    page.ask(post("/api/occupation/start", R"({"site":"No.0","at":"2026-03-14T08:10:00Z"})"));
+    signal_with("lesser_contradictions", "references");
+    restart();
+    CHECK(is(signal_with("lesser_contradictions", "references"), "/word", R"("keep_off")"));
+    CHECK(is(signal_with("contradictions", "reference"), "/word", R"("look")"));
+    restart();
+    const auto look = signal_with("lesser_contradictions", "references");
+    CHECK(is(look, "/word", R"("look")"));
+    CHECK(is(look, "/look/code", R"("reference")"));  // An answer to it holds.
+    restart();
+    signal_with("others", "");
+    restart();
+    CHECK(is(signal_with("lesser_contradictions", "references"), "/word", R"("keep_off")"));
+    REQUIRE(page.recorder.log.size() == 3);  // The start, and begin and end of the contradiction.
+    CHECK(events::to_json(page.recorder.log[1]) ==
+          R"({"type":"contradiction","utc":"2026-03-14T08:29:00.000000000Z",)"
+          R"("code":"reference","key":"20260314T081000Z"})");
+    CHECK(page.recorder.log[2].details ==
+          std::map<std::string, std::string>{{"key", "20260314T081000Z"}});
+}
+
 TEST_CASE("a fault of the sensor is said once, also while the signal shows the plan", "[daemon][page]") {
     Page page;
     page.status.now = page.status.last_sample.emplace(minute(30));

@@ -52,7 +52,7 @@ struct Page {
     live::Record live{*wire::find_profile("A351"), 50, {}};
     status::Status status;
     std::string gravity_so_far = R"({"reason":"not_yet","stays":[]})";
-    survey::SoFarReader reader;
+    survey::SoFarReader reader{{}, [this](const auto& event) { recorder.note(event); }};
     int changes = 0;  ///< Times that the API said that something changed.
     page::Api api{{.status = [this] { return status; },
                    .occupations = occupations,
