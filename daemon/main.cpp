@@ -14,11 +14,9 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
-#include "daemon/bundle/survey_day.hpp"
 #include "daemon/config/config.hpp"
 #include "daemon/config/verdict_config.hpp"
 #include "daemon/gravity/gravity_so_far.hpp"
@@ -27,9 +25,11 @@
 #include "daemon/identify/report.hpp"
 #include "daemon/live/live_record.hpp"
 #include "daemon/page/server.hpp"
+#include "daemon/recorder/day_file.hpp"
+#include "daemon/recorder/reload.hpp"
+#include "daemon/recorder/snapshot.hpp"
 #include "daemon/service/process_setup.hpp"
 #include "daemon/service/service_notice.hpp"
-#include "daemon/source/battery.hpp"
 #include "daemon/source/host_clock.hpp"
 #include "daemon/source/ovens.hpp"
 #include "daemon/source/port.hpp"
@@ -84,118 +84,16 @@ void recall_past(const config::Config& config, UtcTime now, spdlog::logger& log,
     }
 }
 
-/// The parts of the recorder whose state the status shows.
-struct Recorder {
-    const config::Config& config;
-    const source::HostClock& clock;
-    const source::SensorLink& link;
-    const source::Ovens& ovens;
-    store::Store& store;
-    live::Record& live;
-};
-
-status::Status snapshot(const Recorder& recorder) {
-    const auto& [config, clock, link, ovens, store, live] = recorder;
-    status::Status status;
-    status.version = A351_VERSION;
-    const timing::ClockReading reading = clock.read();
-    status.now = reading.realtime;
-    status.host_now = source::host_realtime();
-    constexpr std::chrono::seconds kSecond{1};
-    status.is_in_real_time = clock.instrument_span(kSecond) == kSecond;
-    status.leap = reading.leap;
-    status.verdict = live.verdict();
-    status.sensor_troubles = live.troubles();
-    status.profile = config.station.profile;
-    status.is_profile_verified = config.station.is_profile_verified;
-    status.filter = config.station.filter;
-    status.output_rate_hz = config.station.output_rate_hz;
-    status.declared_rate_hz = config.storage.declared_rate_hz;
-    if (const auto& unit = config.survey.calibration)
-        status.calibrated_serial_number = unit->serial_number;
-    status::fill(status, link.status());
-    if (ovens.inner) status.oven = ovens.inner->status();
-    if (ovens.outer) status.outer_oven = ovens.outer->status();
-    status.battery = source::read_battery();
-    store.fill(status);
-    status::assess(status);
-    return status;
-}
-
-survey::OccupationOptions occupation_options(const config::Config& config) {
-    return {.planned = config.survey.planned,
-            .planned_set_ups = config.survey.set_ups,
-            .faces = config.survey.faces,
-            .sites_file = config.survey.sites_file};
-}
-
-/// Returns what computes the gravity so far: the corrector beside this program, on its data root.
-gravity::GravityOptions gravity_options(const config::Config& config, spdlog::logger& log) {
-    const config::SurveyConfig& survey = config.survey;
-    std::error_code no_proc;  // Without /proc the corrector is not found, and the page says so.
-    const auto self = std::filesystem::read_symlink("/proc/self/exe", no_proc);
-    gravity::GravityOptions options = gravity::options_for(
-        self.parent_path() / "a351-correct",
-        {config.storage.root, survey.sites_file, survey.calibration_file}, survey.gravity_every);
-    options.failed = [&log](const std::string& reason, const std::string& cause) {
-        log.warn("no gravity so far: {}: {}", reason, cause);
-    };
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-    options.limits.memory_bytes = 0;  // sanitizers reserve terabytes
-#endif
-    return options;
-}
-
-/// Returns the survey day as one file, to be sent to a browser or to a351ctl.
-page::Download bundle_of_day(const Recorder& recorder, const survey::Occupations& occupations,
-                             const gravity::GravitySoFar& gravity, spdlog::logger& log) {
-    const config::Config& config = recorder.config;
-    const auto& running = occupations.running();
-    const bundle::Contents contents = bundle::contents_of(
-        {.root = config.storage.root,
-         .sites = occupations.sites_file(),
-         .calibration = config.survey.calibration_file,
-         .station = config.station.codes.network + '_' + config.station.codes.station,
-         .configuration = config.shown,
-         .gravity_so_far = gravity.document(),
-         .stays = occupations.list(),
-         .running = running ? std::optional(running->start) : std::nullopt,
-         .now = recorder.clock.read().realtime});
-    const auto bundle = std::make_shared<bundle::Bundle>(contents);
-    return {.name = contents.folder + ".tar",
-            .open = [bundle] { return bundle->open(); },
-            .next =
-                [bundle, &log] {
-                    try {
-                        return bundle->next();
-                    } catch (const std::exception& error) {
-                        log.error("the day could not be copied: {}", error.what());
-                        throw;
-                    }
-                }};
-}
-
 /// Logs what is doubtful in the list of sites, after it was read.
-void log_doubt(const survey::Occupations& occupations, const std::filesystem::path& list,
-               spdlog::logger& log) {
+void log_doubt(const survey::Occupations& occupations, spdlog::logger& log) {
     if (const text::Message& doubt = occupations.doubtful_site(); !doubt.empty())
-        log.warn("{}: {}", list.string(), doubt.english());
+        log.warn("{}: {}", occupations.sites_file().string(), doubt.english());
 }
 
-/// Reads the configuration again after SIGHUP, and takes sites, the plan of a stay and thresholds
-/// from it.  A file that is refused changes nothing.
-void reload(const config::Config& config, spdlog::logger& log, live::Record& live,
-            survey::Occupations& occupations, gravity::GravitySoFar& gravity, page::Server& page) {
+/// Reads the configuration again after SIGHUP.
+void hang_up(const config::Config& config, const recorder::Reloaded& parts, spdlog::logger& log) {
     try {
-        const config::Config fresh = config::read_config(config.file);
-        live.judge_by(fresh.verdict);
-        config::Config with_sites = config;
-        with_sites.survey.sites_file = fresh.survey.sites_file;
-        gravity.use(gravity_options(with_sites, log));
-        page.post([&occupations, &log, survey = fresh.survey, options = occupation_options(fresh)] {
-            occupations.use(survey.sites, options);
-            log_doubt(occupations, survey.sites_file, log);
-        });
+        recorder::reload(config, parts, [&] { log_doubt(parts.occupations, log); });
         log.info(
             "SIGHUP: [verdict], sites, occupation_min, set_ups and faces were read again and are "
             "in use");
@@ -223,7 +121,7 @@ void announce(const page::Server& page, const config::Config& config, spdlog::lo
 }
 
 /// Reports the state of the recorder once a second, until a signal ends the program.
-void report_until_end(const Recorder& recorder, service::ServiceNotice& notice,
+void report_until_end(const recorder::Parts& parts, service::ServiceNotice& notice,
                       status::StatusLog& status_log, const sigset_t& signals,
                       const std::function<void()>& each_second,
                       const std::function<void()>& hang_up) {
@@ -231,9 +129,9 @@ void report_until_end(const Recorder& recorder, service::ServiceNotice& notice,
     int signal = 0;
     while (signal != SIGINT && signal != SIGTERM) {
         signal = sigtimedwait(&signals, nullptr, &kSecond);
-        const status::Status status = snapshot(recorder);
+        const status::Status status = recorder::snapshot(parts);
         status_log.note(status, std::chrono::steady_clock::now());
-        notice.beat(recorder.store.is_alive(), status::brief(status));
+        notice.beat(parts.store.is_alive(), status::brief(status));
         each_second();
         if (signal == SIGHUP) hang_up();
     }
@@ -290,12 +188,18 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
     source::Ovens ovens;
     if (config.oven) ovens.inner.emplace(*config.oven, clock, take_poll);
     if (config.outer_oven) ovens.outer.emplace(*config.outer_oven, clock, take_poll);
-    const Recorder recorder{config, clock, link, ovens, store, live};
+    const recorder::Parts parts{config, clock, link, ovens, store, live};
+    const auto snapshot = [&] { return recorder::snapshot(parts); };
     const std::filesystem::path events = config.storage.root / "events";
     const std::vector<events::Event> logged = events::read_events(events).events;
     exchange = live::last_exchange(logged);
-    survey::Occupations occupations(store, config.survey.sites, logged, occupation_options(config));
-    gravity::GravitySoFar gravity(gravity_options(config, log));
+    survey::Occupations occupations(store, config.survey.sites, logged,
+                                    recorder::occupation_options(config));
+    gravity::GravityOptions computation = recorder::gravity_options(config);
+    computation.failed = [&](const std::string& reason, const std::string& cause) {
+        log.warn("no gravity so far: {}: {}", reason, cause);
+    };
+    gravity::GravitySoFar gravity(std::move(computation));
     const auto note_change = [&] {
         gravity.note_change(occupations.running().has_value());
         store.set_day_end(occupations.day_end());
@@ -308,13 +212,16 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
     survey::Word word = survey::Word::no_data;  // The page's thread uses it.
     const auto log_signal = [&] {
         if (!is_recovered) return;  // The last run has logged the words of what its journal left.
-        const auto now = signal_log.advance(snapshot(recorder), so_far());
+        const auto now = signal_log.advance(snapshot(), so_far());
         const bool is_complete = now == survey::Word::go && occupations.running();
         if (is_complete && now != word) gravity.note_change(true);
         word = now;
     };
+    const auto not_copied = [&](const std::string& cause) {
+        log.error("the day could not be copied: {}", cause);
+    };
     page::Server page(page_options(config),
-                      {.status = [&] { return snapshot(recorder); },
+                      {.status = snapshot,
                        .occupations = occupations,
                        .live = live,
                        .latitude = config.station.latitude,
@@ -322,14 +229,20 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
                        .events = [&] { return events::read_events(events).events; },
                        .gravity_so_far = [&] { return gravity.document(); },
                        .so_far = so_far,
-                       .bundle = [&] { return bundle_of_day(recorder, occupations, gravity, log); },
+                       .bundle =
+                           [&] {
+                               return recorder::bundle_of_day(config, clock.read().realtime,
+                                                              occupations, gravity.document(),
+                                                              not_copied);
+                           },
                        .changing = log_signal,
                        .changed = note_change,
                        .assets = config.page.assets,
                        .boxes = config.page.boxes,
                        .stale_after = config::stale_after(clock)});
     announce(page, config, log);
-    log_doubt(occupations, config.survey.sites_file, log);
+    log_doubt(occupations, log);
+    const recorder::Reloaded reloaded{live, occupations, gravity, page};
     other_unit = [&](const events::Event& event) {
         live.begin_unit(event.utc);
         page.post([&occupations, &note_change, &log_signal, event] {
@@ -345,8 +258,8 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
     gravity.start();
     notice.ready();
     report_until_end(
-        recorder, notice, status_log, signals, [&] { page.post(log_signal); },
-        [&] { reload(config, log, live, occupations, gravity, page); });
+        parts, notice, status_log, signals, [&] { page.post(log_signal); },
+        [&] { hang_up(config, reloaded, log); });
     log.info("stopping");
     notice.stopping();
     page.stop();
