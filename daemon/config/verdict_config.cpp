@@ -49,8 +49,7 @@ verdict::Options thresholds_for(const unit::Calibration& unit) {
 }
 
 Nanoseconds stale_after(const source::HostClock& clock) {
-    constexpr std::chrono::seconds kStale{3};
-    return std::max<Nanoseconds>(kStale, clock.instrument_span(kPauseOfHost));
+    return std::max<Nanoseconds>(kStaleAfter, clock.instrument_span(kPauseOfHost));
 }
 
 verdict::Options read_verdict(text::TomlTable table, const verdict::Options& defaults) {

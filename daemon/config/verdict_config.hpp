@@ -1,5 +1,7 @@
 #pragma once
 
+#include <chrono>
+
 #include "daemon/source/host_clock.hpp"
 #include "daemon/verdict/verdict_options.hpp"
 #include "protocol/text/strict_toml.hpp"
@@ -17,8 +19,12 @@ namespace a351::daemon::config {
 [[nodiscard]] verdict::Options read_verdict(text::TomlTable table,
                                             const verdict::Options& defaults);
 
-/// Returns the age of the last sample, in instrument time, from which the page has no data: 3 s, and
-/// at least half a second of real time, a pause of the host.
+/// Age of the last sample from which there are no data.  Reason: a slow adapter delays samples by one
+/// second.  The page has the same limit for the time in which it receives nothing.
+inline constexpr std::chrono::seconds kStaleAfter{3};
+
+/// Returns this age in instrument time; it is at least half a second of real time, a pause of the
+/// host.
 [[nodiscard]] Nanoseconds stale_after(const source::HostClock& clock);
 
 }  // namespace a351::daemon::config

@@ -21,6 +21,7 @@
 #include <string_view>
 #include <vector>
 
+#include "daemon/config/verdict_config.hpp"
 #include "daemon/live/live_record.hpp"
 #include "daemon/page/assets.hpp"
 #include "daemon/page/message.hpp"
@@ -51,9 +52,7 @@ struct ApiSources {
     std::vector<std::string> boxes = {};  ///< Origins of the daemons that /boxes shows.
     bool is_token_configured = false;     ///< The server sets it.
 
-    /// Instrument time without a sample after which the verdict is "no data".  On scaled time it
-    /// must be at least 0.5 s of real time.
-    Nanoseconds stale_after = std::chrono::seconds(3);
+    Nanoseconds stale_after = config::kStaleAfter;  ///< See config::stale_after().
 };
 
 class Api {

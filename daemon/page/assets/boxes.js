@@ -7,12 +7,11 @@ import { by_id, make, set_text, show } from "./dom.js";
 import { number, visible } from "./format.js";
 import { sentence, tr } from "./language.js";
 import { recalled, remember } from "./memory.js";
-import { troubles_of } from "./signal.js";
+import { kStale_s, troubles_of } from "./signal.js";
 import { time_with_utc, with_local_times } from "./time.js";
 
 const kEvery_ms = 1000;
-const kPatience_ms = 3000;
-const kStale_s = 3;
+const kPatience_ms = 3000; // Longest wait for an answer.
 const kMostApart_ms = 10_000; // A box that records is a second late at most; one that does not must not delay the others.
 
 /** Returns true for an answer that has what a panel shows. */

@@ -11,14 +11,13 @@ import "./help.js";
 import { tr } from "./language.js";
 import { OccupationPanel } from "./occupation.js";
 import { Minute } from "./samples.js";
-import { show_details, show_signal, show_tilt, troubles_of } from "./signal.js";
+import { kStale_s, show_details, show_signal, show_tilt, troubles_of } from "./signal.js";
 import { Stream } from "./stream.js";
 import { date_with_utc, zone } from "./time.js";
 
 show("boxes-link", document.querySelector('meta[name="a351-boxes"]').content !== "");
 
 const kRedraw_ms = 200;
-const kStale_s = 3;
 const kClock_ms = 5000; // The smallest difference of two clocks that is said.
 const kSetBack_ms = 1000; // Smaller steps are corrections of a clock that is not well known yet.
 

@@ -5,6 +5,8 @@ import { duration, number, signed, significant, visible } from "./format.js";
 import { sentence, sentences, tr } from "./language.js";
 import { time_of_day, time_with_utc, with_local_times } from "./time.js";
 
+/** Time without data after which the page says so, real time; kStaleAfter of the daemon. */
+export const kStale_s = 3;
 const kBubbleScale = 100 / 3; // Drawing units per arc minute: the rim is 3'.
 
 /** Shows the signal.  @param stay  the running stay, or null.  @param stale_s  age of the newest sample if it is too old, else null.

@@ -4,10 +4,12 @@
 #include <iterator>
 #include "tests/support/catch.hpp"
 
+#include "daemon/config/verdict_config.hpp"
 #include "protocol/text/catalogue.hpp"
 #include "tests/support/temporary_directory.hpp"
 
 using namespace a351;
+using namespace a351::daemon;
 using namespace a351::daemon::page;
 
 namespace {
@@ -33,6 +35,11 @@ TEST_CASE("the page knows the name of every language", "[daemon][page]") {
                                 std::string(text::name_of(one)) + "&quot;"));
         CHECK_FALSE(has(page, "@LANGUAGES@"));
     }
+}
+
+TEST_CASE("page and daemon have the same limit for the age of the data", "[daemon][page]") {
+    CHECK(has(body_of(Assets({}, "sesame"), "/signal.js"),
+              "kStale_s = " + std::to_string(config::kStaleAfter.count()) + ";"));
 }
 
 TEST_CASE("the page and every file it loads are compiled in", "[daemon][page]") {

@@ -175,7 +175,7 @@ TEST_CASE_METHOD(Fixture, "every documented key is accepted and read", "[daemon]
 TEST_CASE("a pause of the host is no lack of data, however fast instrument time runs",
           "[daemon][config]") {
     const source::HostClock real;
-    CHECK(stale_after(real) == std::chrono::seconds(3));
+    CHECK(stale_after(real) == kStaleAfter);
     const source::HostClock fast(
         ClockScale{1000.0, source::host_realtime(), source::host_realtime()});
     CHECK(stale_after(fast) == std::chrono::seconds(500));

@@ -153,11 +153,12 @@ TEST_CASE("the status carries values with their units", "[daemon][page]") {
     CHECK(is(status, "/occupation/session", '"' + page.recorder.session.to_hex() + '"'));
 }
 
-TEST_CASE("the verdict becomes no data after 3 s without a sample", "[daemon][page]") {
+TEST_CASE("the verdict becomes no data when the last sample is older than the limit",
+          "[daemon][page]") {
     Page page;
     page.status.last_sample = minute(1);
     page.status.verdict.state = verdict::State::stable;
-    page.status.now = minute(1) + std::chrono::seconds(3);
+    page.status.now = minute(1) + config::kStaleAfter;
     CHECK(is(page.ask(get("/api/status")), "/details/state", R"("stable")"));
     page.status.now += Nanoseconds(1);
     const auto verdict = page.ask(get("/api/status"))["details"];
