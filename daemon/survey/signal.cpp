@@ -57,11 +57,9 @@ text::Message of_plan(const PlannedStay& stay) {
 }
 
 text::Message of_no_data(const verdict::Verdict& verdict, const std::vector<text::Message>& why) {
-    // Samples arrive, or there would be no reason of the verdict: the filters are filling.
-    if (verdict.reasons.size() == 1)
+    if (verdict.lack == verdict::Lack::values)
         return text::message("Values arrive. The signal needs 20 s of them without a gap.");
-    // The age of the sample is met, and another check is not.
-    if (verdict.reasons.size() > 1 && !why.empty())
+    if (verdict.lack == verdict::Lack::changes && !why.empty())
         return text::message("The values cannot be used: {}. Switch the sensor off and on.",
                              why.front());
     text::Message sentence = text::message("No values arrive");

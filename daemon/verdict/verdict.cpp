@@ -113,18 +113,20 @@ const Verdict& Judge::at(UtcTime now) {
                            const char* ending = "") {
         return check({quantity, value, unit, ending, limit, true, value >= limit});
     };
+    const auto no_data = [&](Lack lack, UtcTime since) -> const Verdict& {
+        verdict_.lack = lack;
+        return decide(State::no_data, since, std::move(reasons));
+    };
     if (!last_good_) {
         least(marked("values so far (the first takes 20 s):"), 0.0, "", 1.0);
-        return decide(State::no_data, now, std::move(reasons));
+        return no_data(Lack::values, now);
     }
     if (!most(marked("last good sample"), seconds_between(*last_good_, now), "s", options_.gap_s,
               marked("ago")))
-        return decide(State::no_data, *last_good_ + from_seconds(options_.gap_s),
-                      std::move(reasons));
+        return no_data(Lack::values, *last_good_ + from_seconds(options_.gap_s));
     if (!most(marked("temperature unchanged for"), seconds_between(*stuck_since_, *last_good_), "s",
               options_.stuck_s))
-        return decide(State::no_data, *stuck_since_ + from_seconds(options_.stuck_s),
-                      std::move(reasons));
+        return no_data(Lack::changes, *stuck_since_ + from_seconds(options_.stuck_s));
     reasons.clear();
 
     const double off_degc = std::abs(last_degc_ - options_.operating_degc);

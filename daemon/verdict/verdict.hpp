@@ -18,6 +18,13 @@ namespace a351::daemon::verdict {
 
 enum class State { no_data, warming_up, disturbed, settling, stable };
 
+/// What is missing while there are no data.
+enum class Lack {
+    samples,  ///< None arrive.
+    values,   ///< Samples arrive, and the filters of the live series fill: at a start, after a gap.
+    changes   ///< Values arrive, and the temperature is frozen.
+};
+
 /// Returns "warming up" and the like.
 [[nodiscard]] std::string_view to_text(State state) noexcept;
 
@@ -44,6 +51,7 @@ struct Verdict {
     /// Least time until the verdict can be stable; absent if temperature or noise decide, or without
     /// data.
     std::optional<double> time_left_s = {};
+    Lack lack = Lack::samples;  ///< With the state no_data only.
 };
 
 /// Judges the live series.  From the worst to the best:

@@ -74,7 +74,7 @@ TEST_CASE("the sentence has the reason and what to do, with two buttons at most"
     CHECK(sentence(State::no_data, {}) ==
           "No values arrive: why. Check the sensor's plug and its power supply.");
     verdict::Verdict filling;  // The filters fill at a start and after a gap.
-    filling.reasons.resize(1);
+    filling.lack = verdict::Lack::values;
     CHECK(signal_of(filling, {"why"}, {}, "", {}).sentence ==
           "Values arrive. The signal needs 20 s of them without a gap.");
     CHECK(sentence(State::warming_up, {}) ==
@@ -107,7 +107,7 @@ TEST_CASE("the sentence has the reason and what to do, with two buttons at most"
                {{"set_ups", "K", "look", {}}})
               .sentence == "look. No.1: set-up 1 of 2, 2:10 left.");
     verdict::Verdict frozen;
-    frozen.reasons.resize(2);
+    frozen.lack = verdict::Lack::changes;
     CHECK(signal_of(frozen, {"temperature unchanged"}, {}, "", {}).sentence ==
           "The values cannot be used: temperature unchanged. Switch the sensor off and on.");
 }

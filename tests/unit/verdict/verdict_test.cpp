@@ -63,6 +63,7 @@ TEST_CASE("without a sample the verdict is no data, with the reason", "[verdict]
     Judge judge;
     const Verdict& verdict = judge.at(kStart);
     CHECK(verdict.state == State::no_data);
+    CHECK(verdict.lack == Lack::values);
     CHECK(verdict.since == kStart);
     REQUIRE(verdict.reasons.size() == 1);
     CHECK(verdict.reasons[0].to_message() == "values so far (the first takes 20 s): 0 (needs 1)");
@@ -301,6 +302,7 @@ TEST_CASE("a gap above its limit is no data, and after a long gap steadiness mus
     CHECK(series.judge.at(last + from_seconds(9.0)).state == State::stable);
     const Verdict& verdict = series.judge.at(last + from_seconds(11.0));
     CHECK(verdict.state == State::no_data);
+    CHECK(verdict.lack == Lack::values);
     CHECK(verdict.since == last + from_seconds(10.0));
     CHECK(verdict.reasons.front().to_message().english().rfind("last good sample", 0) == 0);
 
@@ -352,6 +354,7 @@ TEST_CASE("a stuck temperature counts as no data", "[verdict]") {
     };
     CHECK(run_stuck(300) == State::stable);  // A quiet oven changes by one count in two minutes.
     CHECK(run_stuck(10) == State::no_data);
+    CHECK(series.judge.verdict().lack == Lack::changes);
     CHECK(series.judge.verdict().since == stuck + from_seconds(600.0));
     CHECK(find(series.judge.verdict(), "temperature unchanged for") != nullptr);
     CHECK(series.run(30.0).state == State::stable);
