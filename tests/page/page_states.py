@@ -1,5 +1,7 @@
 """Each state of the page with made-up data: words, signs, contrast and sizes; saves pictures under screenshots/."""
 
+import time
+
 from browser import LAPTOP, PHONE, Browser
 from made_up import (MISSING, MOVED, SIGNALS, details, finding, finished, gravity, no_stay, occupation, reading, signal, sites, stay, survey,
                      tilt)
@@ -239,6 +241,17 @@ def show_missed_set_up(stub, browser):
     sent = [(path.split("/")[-1], body["key"], body.get("at")) for path, body in stub.posts]
     demand(f"the stay is resumed, divided and stopped as before: {sent}",
            sent == [("resume", "key-3", None), ("setup", "key-3", at), ("stop", "key-3", last["set_ups"][0]["end"])])
+    stub.refusal = "this instant is not recorded"
+    for stub.refused, expected in (("setup", ["resume", "setup", "stop"]), ("resume", ["resume"])):
+        stub.posts.clear()
+        browser.click("#day-setup")
+        browser.wait_for(f"if {stub.refused} is refused, {len(expected)} orders are sent", lambda: len(stub.posts) == len(expected))
+        browser.wait_for("the last answer is the refusal", lambda: browser.text("answer") == f"Not done: {stub.refusal}"
+                         and "error" in browser.find("#answer").get_attribute("class"))
+        time.sleep(0.2)  # A further order would follow at once.
+        sent = [path.split("/")[-1] for path, _ in stub.posts]
+        demand(f"the stay does not run on: {sent}", sent == expected)
+    stub.refusal, stub.refused = None, ""
     stub.status["occupation"] = occupation()
     browser.wait_for("while a stay runs the button is hidden", lambda: browser.text("day-setup") == "")
     stub.status["occupation"] = None
@@ -286,7 +299,7 @@ def show_check_lists(stub, browser):
     browser.resize(LAPTOP)
 
 
-with Browser() as page:
+with Browser(allowed_errors=["status of 409"]) as page:
     daemon = StubDaemon()
     daemon.sites = sites()
     page.wait_for("samples arrive", lambda: daemon.samples)

@@ -105,7 +105,8 @@ class StubDaemon:
         self.survey = {"as_of_utc": None, "data_to_utc": None, "reason": "not_yet", "reason_text": None, "model": None,
                        "stays": [], "findings": []}
         self.posts = []
-        self.refusal = None  # Reason for which orders are refused.
+        self.refusal = None  # Reason for which orders are refused,
+        self.refused = ""  # those whose path ends in this.
         self.history_gap = None  # (begin, end) in Unix seconds of a gap in the history.
         self.peak_s = None  # Unix time of a peak of 2 mg in the history.
         self.is_sampling = True
@@ -240,7 +241,7 @@ class StubDaemon:
             return
         if request.headers["X-A351-Token"] != self.token:
             return self.reply(request, {"error": "the token (header X-A351-Token) is missing or wrong"}, status=403)
-        if self.refusal:
+        if self.refusal and request.path.endswith(self.refused):
             return self.reply(request, {"error": self.refusal}, status=409)
         self.reply(request, {"message": f"took {request.path}", "occupation": self.status["occupation"]})
 
