@@ -1,7 +1,7 @@
 #pragma once
 /// @file
-/// Quantiles and tail probabilities of Student's t and of chi-square, for limits of confidence and
-/// tests.
+/// Quantiles and tail probabilities of the normal distribution, of Student's t and of chi-square, for
+/// limits of confidence and tests.
 ///
 /// Boost's templates are compiled once, in the source: each file that includes them costs seconds.
 ///
@@ -16,6 +16,10 @@
 /// Source: Boost.Math, in double precision on every architecture (BOOST_MATH_PROMOTE_DOUBLE_POLICY).
 
 namespace a351::signal {
+
+/// 95 % of a normal distribution are within this many standard deviations of its mean: its quantile
+/// of 0.975, 1.959964, rounded.
+inline constexpr double kNormal95 = 1.96;
 
 /// Returns the value that Student's t with `dof` degrees of freedom exceeds with probability 1 - p.
 [[nodiscard]] double students_t_quantile(double dof, double p);

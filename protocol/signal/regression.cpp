@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <numeric>
 
+#include "protocol/signal/distributions.hpp"
+
 namespace a351::signal {
 namespace {
 
@@ -116,7 +118,6 @@ CrossCorrelation correlate(std::span<const double> temperature,
 }
 
 double chance_correlation(std::span<const double> x, std::span<const double> y, int most_lag) {
-    constexpr double kNormal95 = 1.96;
     const auto n = static_cast<double>(x.size());
     double sum = 1.0;
     for (int lag = 1; lag <= most_lag; ++lag)

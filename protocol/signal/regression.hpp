@@ -76,7 +76,7 @@ struct CrossCorrelation {
                                          int most_lag, double step_s);
 
 /// Returns the size that the correlation of two independent series exceeds at a lag with a
-/// probability of 5 %: 1.96 times its standard deviation (Bartlett 1935),
+/// probability of 5 %: kNormal95 times its standard deviation (Bartlett 1935),
 ///
 ///     sqrt(sum over k of (1 - |k| / n) rx(k) ry(k) / n),   |k| <= most_lag
 ///

@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "protocol/core/utc_time.hpp"
+#include "protocol/signal/distributions.hpp"
 #include "protocol/unit/thermal_response.hpp"
 
 namespace a351::unit {
@@ -87,8 +88,8 @@ struct Placement {
         return std::log(high_mgal / low_mgal) / (2.0 * kNormal95);
     }
 
-    /// Half width of the limits in standard errors: 97.5 % of a normal distribution are below it.
-    static constexpr double kNormal95 = 1.96;
+    /// Half width of the limits in standard errors.
+    static constexpr double kNormal95 = signal::kNormal95;
 };
 
 /// Scale factor: change of the reading divided by that of gravity.
@@ -108,10 +109,10 @@ inline constexpr double kUsualScaleDeviation = 2e-3;
 /// Errors of the vertical axis in two faces, each a straight line in the temperature T in degC:
 ///
 ///     z up: reading = gravity (1 + scale) + bias,   z down: gravity (1 + scale) - bias
-///     bias = bias_mgal + bias_mgal_per_degc (T - 42.5)
-///     980665 scale = scale_mgal + scale_mgal_per_degc (T - 42.5)
+///     bias = bias_mgal + bias_mgal_per_degc (T - T0)
+///     980665 scale = scale_mgal + scale_mgal_per_degc (T - T0)
 ///
-/// A quadratic term of the axis is part of the bias.
+/// T0 is the set point of the typical unit.  A quadratic term of the axis is part of the bias.
 inline constexpr std::array<std::string_view, 4> kFacesNames{
     "bias_mgal", "scale_mgal", "bias_mgal_per_degc", "scale_mgal_per_degc"};
 /// These coefficients with their covariance.  Range in a file: constants +-1e5, slopes +-1e4.

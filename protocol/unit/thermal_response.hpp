@@ -18,7 +18,7 @@
 /// before.
 ///
 ///     const ThermalEffect unit{-12.0, -20.0, 11.3};  // lags of the typical unit
-///     const std::vector<double> effect_mgal = unit.of(temperature, 42.5);
+///     const std::vector<double> effect_mgal = unit.of(temperature, kTypicalUnit.set_point_degc);
 ///
 /// All functions are pure: any number of threads may call them.
 ///
@@ -61,6 +61,7 @@ struct TypicalUnit {
     double slow_lag_s = 2700.0;              ///< tS
     double warm_up_mgal = 36.0;              ///< Effect at power-on that the thermometer misses.
     double warm_up_h = 2.5;                  ///< Time constant of its decay.
+    double set_point_degc = 42.5;            ///< Set point of its oven.
 };
 inline constexpr TypicalUnit kTypicalUnit;
 
