@@ -31,13 +31,6 @@ std::string code_or_refuse(TomlTable& table, std::string_view key, const char* f
     return code;
 }
 
-double required_number(TomlTable& table, std::string_view key, double low, double high,
-                       std::string_view allowed) {
-    const auto value = table.number(key, low, high);
-    if (!value) table.refuse(key, "missing", allowed);
-    return *value;
-}
-
 std::array<std::string, 3> read_axes(TomlTable& table, const std::string& joined) {
     std::array<std::string, 3> axes;
     const bool has_form = joined.size() == 5 && joined[1] == ',' && joined[3] == ',';
@@ -61,12 +54,12 @@ station::Description read_station(TomlTable table) {
     if (!station.codes.location.empty() && !is_code(station.codes.location, 2, 2))
         table.refuse("location", "not a SEED code", "2 characters A-Z 0-9, or empty");
     station.latitude =
-        Degrees(required_number(table, "latitude", -90, 90, "degrees north, -90 to 90"));
+        Degrees(table.required_number("latitude", -90, 90, "degrees north, -90 to 90"));
     station.longitude =
-        Degrees(required_number(table, "longitude", -180, 360, "degrees east, -180 to 360"));
+        Degrees(table.required_number("longitude", -180, 360, "degrees east, -180 to 360"));
     station.elevation =
-        Metres(required_number(table, "elevation_m", text::kLeastAltitude_m,
-                               text::kGreatestAltitude_m, "metres above sea, -5000 to 9000"));
+        Metres(table.required_number("elevation_m", text::kLeastAltitude_m,
+                                     text::kGreatestAltitude_m, "metres above sea, -5000 to 9000"));
     table.require_all_read();
     return station;
 }

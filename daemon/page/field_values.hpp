@@ -59,9 +59,9 @@ auto null_without(Condition is_met) {
 }
 
 /// Returns several lists as one.
-inline std::vector<Field> concatenated(std::initializer_list<std::vector<Field>> lists) {
-    std::vector<Field> all;
-    for (const std::vector<Field>& one : lists) all.insert(all.end(), one.begin(), one.end());
+inline Fields concatenated(std::initializer_list<Fields> lists) {
+    Fields all;
+    for (const Fields& one : lists) all.insert(all.end(), one.begin(), one.end());
     return all;
 }
 

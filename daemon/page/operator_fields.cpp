@@ -8,7 +8,6 @@ namespace {
 
 using nlohmann::json;
 using text::marked;
-using Fields = std::vector<Field>;
 
 bool has_stay(const Moment& now) { return now.occupations.running().has_value(); }
 bool has_level(const Moment& now) { return !now.field.level_site.empty(); }

@@ -8,7 +8,6 @@ namespace {
 using nlohmann::json;
 using status::Status;
 using text::marked;
-using Fields = std::vector<Field>;
 
 double in_ms(Nanoseconds span) { return std::chrono::duration<double, std::milli>(span).count(); }
 

@@ -10,7 +10,6 @@ using nlohmann::json;
 using source::OvenLinkStatus;
 using status::Status;
 using text::marked;
-using Fields = std::vector<Field>;
 
 bool has_sample(const Moment& now) { return now.status.last_sample.has_value(); }
 

@@ -9,7 +9,6 @@ namespace {
 using nlohmann::json;
 using status::Status;
 using text::marked;
-using Fields = std::vector<Field>;
 
 Fields general_fields() {
     return {
@@ -57,7 +56,7 @@ Fields general_fields() {
 
 }  // namespace
 
-const std::vector<Field>& status_fields() {
+const Fields& status_fields() {
     static const Fields kFields =
         concatenated({general_fields(), operator_fields(), sensor_fields(), recorder_fields()});
     return kFields;

@@ -95,13 +95,14 @@ struct Field {
     Shown shown = {};
     Metric metric = {};
 };
+using Fields = std::vector<Field>;
 
 /// Returns all fields, in the order of the rows.
-[[nodiscard]] const std::vector<Field>& status_fields();
+[[nodiscard]] const Fields& status_fields();
 
 /// Return its parts: signal, stay, tilt and details; sensor and ovens; timing, counters and disk.
-[[nodiscard]] std::vector<Field> operator_fields();
-[[nodiscard]] std::vector<Field> sensor_fields();
-[[nodiscard]] std::vector<Field> recorder_fields();
+[[nodiscard]] Fields operator_fields();
+[[nodiscard]] Fields sensor_fields();
+[[nodiscard]] Fields recorder_fields();
 
 }  // namespace a351::daemon::page

@@ -139,6 +139,13 @@ std::optional<double> TomlTable::number(std::string_view key, double low, double
     return value;
 }
 
+double TomlTable::required_number(std::string_view key, double low, double high,
+                                  std::string_view allowed) {
+    const auto value = number(key, low, high);
+    if (!value) refuse(key, "missing", allowed);
+    return *value;
+}
+
 double TomlTable::number_or(std::string_view key, double fallback, double low, double high) {
     return number(key, low, high).value_or(fallback);
 }

@@ -56,6 +56,10 @@ public:
     /// Returns a number.  Here, in number() and in numbers() a whole number like `3` is one too.
     [[nodiscard]] double number_or(std::string_view key, double fallback, double low, double high);
     [[nodiscard]] std::optional<double> number(std::string_view key, double low, double high);
+    /// Returns a number that must be there.
+    /// @param allowed  what the refusal of an absent one names.
+    [[nodiscard]] double required_number(std::string_view key, double low, double high,
+                                         std::string_view allowed = "a number");
     /// Returns the elements of an array of strings.  An empty array gives the same as no key.
     [[nodiscard]] std::vector<std::string> strings(std::string_view key);
     /// Returns the elements of an array of numbers, each within [low, high].  An empty array gives

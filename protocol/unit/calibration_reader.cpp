@@ -50,12 +50,6 @@ std::optional<UtcTime> time_of(text::TomlTable& table, std::string_view key) {
     return time;
 }
 
-double required_number(text::TomlTable& table, std::string_view key, double low, double high) {
-    const auto value = table.number(key, low, high);
-    if (!value) table.refuse(key, "missing", "a number");
-    return *value;
-}
-
 template <std::size_t kSize>
 void require_in_range(const text::TomlTable& table, const std::vector<double>& values,
                       const std::array<std::string_view, kSize>& names,
@@ -107,8 +101,8 @@ std::optional<CalibratedCoefficients<kCount>> coefficients_of(
 std::optional<Placement> placement_of(text::TomlTable& document) {
     if (!document.has("placement")) return std::nullopt;
     text::TomlTable table = document.table("placement");
-    const double mgal = required_number(table, "standard_deviation_mgal", kLeastPlacement_mgal,
-                                        kGreatestPlacement_mgal);
+    const double mgal = table.required_number("standard_deviation_mgal", kLeastPlacement_mgal,
+                                              kGreatestPlacement_mgal);
     const auto limits = table.numbers("limits_mgal", kLeastPlacement_mgal, kGreatestPlacement_mgal);
     table.require_all_read();
     if (limits.size() != 2 || !(limits[0] < mgal && mgal < limits[1]))
@@ -121,9 +115,8 @@ std::optional<Scale> scale_of(text::TomlTable& document) {
     constexpr double kGreatestError = 0.1, kLeastDeviation = 1e-6;
     if (!document.has("scale")) return std::nullopt;
     text::TomlTable table = document.table("scale");
-    const double value =
-        required_number(table, "value", 1.0 - kGreatestError, 1.0 + kGreatestError);
-    const double error = required_number(table, "standard_error", kLeastDeviation, kGreatestError);
+    const double value = table.required_number("value", 1.0 - kGreatestError, 1.0 + kGreatestError);
+    const double error = table.required_number("standard_error", kLeastDeviation, kGreatestError);
     table.require_all_read();
     return Scale{value, error};
 }
@@ -164,8 +157,8 @@ Calibration parse_calibration(std::string_view text, std::filesystem::path origi
         coefficients_of<kThermalTerms>(document, "thermal", kThermalNames, kThermalRanges);
     if (document.has("warm_up")) {
         text::TomlTable table = document.table("warm_up");
-        calibration.warm_up = {required_number(table, "within_mgal", 1e-3, 1e3),
-                               required_number(table, "after_power_on_h", 0.0, kLongestWarmUp_h)};
+        calibration.warm_up = {table.required_number("within_mgal", 1e-3, 1e3),
+                               table.required_number("after_power_on_h", 0.0, kLongestWarmUp_h)};
         table.require_all_read();
     }
     calibration.placement = placement_of(document);

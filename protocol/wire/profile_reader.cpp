@@ -27,11 +27,6 @@ int required_integer(TomlTable& table, std::string_view key, int low, int high) 
     return static_cast<int>(table.integer_or(key, 0, low, high));
 }
 
-double required_number(TomlTable& table, std::string_view key, double low, double high) {
-    require(table, key, "a number");
-    return table.number_or(key, 0.0, low, high);
-}
-
 bool required_boolean(TomlTable& table, std::string_view key) {
     require(table, key, "true or false");
     return table.boolean_or(key, false);
@@ -85,7 +80,7 @@ void read_scales(TomlTable& document, DeviceProfile& profile) {
     TomlTable acceleration = required_table(document, "acceleration");
     profile.acceleration_fraction_bits = required_integer(acceleration, "fraction_bits", 8, 30);
     profile.rated_range =
-        StandardGravity(required_number(acceleration, "rated_range_g", 1.0, 1000.0));
+        StandardGravity(acceleration.required_number("rated_range_g", 1.0, 1000.0));
     acceleration.require_all_read();
 
     TomlTable tilt = required_table(document, "tilt");
@@ -93,10 +88,10 @@ void read_scales(TomlTable& document, DeviceProfile& profile) {
     tilt.require_all_read();
 
     TomlTable temperature = required_table(document, "temperature");
-    profile.temperature_slope_degc = required_number(temperature, "slope_degc", -1.0, 1.0);
+    profile.temperature_slope_degc = temperature.required_number("slope_degc", -1.0, 1.0);
     if (profile.temperature_slope_degc == 0.0)
         temperature.refuse("slope_degc", "has no inverse", "a number from -1 to 1, but not 0");
-    profile.temperature_offset_degc = required_number(temperature, "offset_degc", -1e6, 1e6);
+    profile.temperature_offset_degc = temperature.required_number("offset_degc", -1e6, 1e6);
     profile.temperature_bits = required_integer(temperature, "width_bits", 16, 32);
     if (profile.temperature_bits != 16 && profile.temperature_bits != 32)
         temperature.refuse("width_bits", "not a width of the device", "16, 32");
@@ -106,7 +101,7 @@ void read_scales(TomlTable& document, DeviceProfile& profile) {
 void read_noise(TomlTable& document, DeviceProfile& profile) {
     if (!document.has("noise")) return;
     TomlTable noise = required_table(document, "noise");
-    profile.noise_ug_per_sqrt_hz = required_number(noise, "ug_per_sqrt_hz", 1e-4, 1e4);
+    profile.noise_ug_per_sqrt_hz = noise.required_number("ug_per_sqrt_hz", 1e-4, 1e4);
     noise.require_all_read();
 }
 

@@ -18,11 +18,11 @@ constexpr double kShortestSetUpSeconds = 60.0;
 text::Site read_site(text::TomlTable& table) {
     const text::Site site{
         .name = required_name(table),
-        .longitude = Degrees(required_number(table, "longitude_deg", -180.0, 360.0)),
-        .latitude = Degrees(required_number(table, "latitude_deg", -90.0, 90.0)),
-        .altitude = Metres(required_number(table, "altitude_m", text::kLeastAltitude_m,
-                                           text::kGreatestAltitude_m)),
-        .gravity = MilliGal(required_number(table, "gravity_mgal", 970000.0, 990000.0))};
+        .longitude = Degrees(table.required_number("longitude_deg", -180.0, 360.0)),
+        .latitude = Degrees(table.required_number("latitude_deg", -90.0, 90.0)),
+        .altitude = Metres(
+            table.required_number("altitude_m", text::kLeastAltitude_m, text::kGreatestAltitude_m)),
+        .gravity = MilliGal(table.required_number("gravity_mgal", 970000.0, 990000.0))};
     table.require_all_read();
     return site;
 }
@@ -132,7 +132,7 @@ void read_ambient(text::TomlTable& document, Scenario& scenario) {
         if (table.has("at_utc") == knot.hours.has_value())
             table.refuse("at_h", "not one instant", "either at_h or at_utc");
         if (!knot.hours) knot.utc = required_instant(table, "at_utc");
-        knot.degc = required_number(table, "degc", kColdestDegC, kWarmestDegC);
+        knot.degc = table.required_number("degc", kColdestDegC, kWarmestDegC);
         require_below_set_point(table, "degc", knot.degc, scenario);
         table.require_all_read();
         scenario.ambient.push_back(knot);
@@ -171,7 +171,7 @@ void read_open_lids(text::TomlTable& document, Scenario& scenario) {
             lid.to = required_instant(table, "to_utc");
             if (lid.to <= lid.from) table.refuse("to_utc", "not after from_utc", "a later instant");
         }
-        lid.outside_degc = required_number(table, "outside_degc", kColdestDegC, kWarmestDegC);
+        lid.outside_degc = table.required_number("outside_degc", kColdestDegC, kWarmestDegC);
         require_below_set_point(table, "outside_degc", lid.outside_degc, scenario);
         table.require_all_read();
         scenario.open_lids.push_back(lid);
@@ -247,12 +247,6 @@ std::string required_name(text::TomlTable& table) {
                      "a name without quotes, commas, backslashes and control characters");
     }
     return name;
-}
-
-double required_number(text::TomlTable& table, std::string_view key, double low, double high) {
-    const std::optional<double> value = table.number(key, low, high);
-    if (!value) table.refuse(key, "missing", "a number");
-    return *value;
 }
 
 UtcTime required_instant(text::TomlTable& table, std::string_view key) {

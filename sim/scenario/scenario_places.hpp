@@ -17,10 +17,8 @@ void read_places(text::TomlTable& document, Scenario& scenario);
 /// @throws InputError  it is missing or has a character that would need quoting there.
 [[nodiscard]] std::string required_name(text::TomlTable& table);
 
-/// Return the value of a required key.
-/// @throws InputError  it is missing, not within [low, high], or not an instant.
-[[nodiscard]] double required_number(text::TomlTable& table, std::string_view key, double low,
-                                     double high);
+/// Returns the value of a required key.
+/// @throws InputError  it is missing or not an instant.
 [[nodiscard]] UtcTime required_instant(text::TomlTable& table, std::string_view key);
 
 }  // namespace a351::sim::scenario

@@ -94,7 +94,7 @@ FixedRecord read_fixed_record(text::TomlTable table, const std::optional<FixedRe
     FixedRecord record = base.value_or(FixedRecord{});
     if (!base || table.has("start_utc")) record.start = required_instant(table, "start_utc");
     if (!base || table.has("duration_h"))
-        record.duration_h = required_number(table, "duration_h", 0.01, 10'000.0);
+        record.duration_h = table.required_number("duration_h", 0.01, 10'000.0);
     table.require_all_read();
     return record;
 }
