@@ -18,8 +18,9 @@ namespace a351::corrector::archive_series {
 namespace {
 
 constexpr std::chrono::seconds kPiece(10);
-// Least share of the samples that are there.  A wrong rate has half of them; no line in use loses a quarter.
-constexpr double kLeastShare = 0.75;
+// Least share of the samples that follow the one before.  With a wrong rate none does; a line that
+// loses samples at random has as many as it does not lose.
+constexpr double kLeastFollowing = 0.25;
 
 /// Values that the pieces of a journal have with a profile.
 class Pieces final : public archive::Sink {
@@ -32,6 +33,8 @@ public:
             sum_g_[k] += profile_.acceleration(sample.values.axes[k]).value();
         sum_degc_ += profile_.temperature(sample.values.temperature).value();
         ++samples_;
+        if (previous_ && sample.index == *previous_ + 1) ++following_;
+        previous_ = sample.index;
     }
 
     /// Begins a piece at the next arrival of samples.
@@ -50,17 +53,17 @@ public:
             norms_g.push_back(std::hypot(sum_g_[0], sum_g_[1], sum_g_[2]) / count);
             temperatures_degc.push_back(sum_degc_ / count);
             rates.push_back(static_cast<double>(index - start_->index) / seconds / nominal_hz_);
-            shares.push_back(count / static_cast<double>(index - start_->index));
+            shares_following.push_back(static_cast<double>(following_) / count);
         }
         start_ = {index, time};
         sum_g_ = {};
         sum_degc_ = 0.0;
-        samples_ = 0;
+        samples_ = following_ = 0;
     }
 
     std::vector<double> norms_g, temperatures_degc;
-    std::vector<double> rates;   ///< Rate of the indices, divided by the nominal one.
-    std::vector<double> shares;  ///< Samples that are there, divided by those of the indices.
+    std::vector<double> rates;  ///< Rate of the indices, divided by the nominal one.
+    std::vector<double> shares_following;  ///< Samples whose index is the next one, divided by all.
 
 private:
     struct Arrival {
@@ -72,7 +75,8 @@ private:
     std::optional<Arrival> start_;
     std::array<double, 3> sum_g_{};
     double sum_degc_ = 0.0;
-    std::int64_t samples_ = 0;
+    std::int64_t samples_ = 0, following_ = 0;
+    std::optional<std::int64_t> previous_;  ///< Index of the newest sample.
 };
 
 [[noreturn]] void refuse(const wire::DeviceProfile& profile, const std::string& values) {
@@ -96,8 +100,7 @@ text::Message refuse_wrong_profile(const std::filesystem::path& root,
                 !header->product_id.empty())
                 other_product = text::message(
                     "the sensor reported the product {}, profile {} is for {}: check that it is "
-                    "the "
-                    "right one",
+                    "the right one",
                     header->product_id, profile.name, profile.product_id_prefix);
             const auto layout = wire::BurstLayout::from_burst_ctrl(header->burst_ctrl);
             has_temperature = has_temperature && layout && layout->has_temperature();
@@ -109,12 +112,14 @@ text::Message refuse_wrong_profile(const std::filesystem::path& root,
             pieces.arrived(*archiver.last_index(), received->reads.back().time);
     }
     if (pieces.rates.empty()) return other_product;
-    const double rate = signal::median(pieces.rates), share = signal::median(pieces.shares);
-    if (std::abs(rate - 1.0) > kMostRateError || share < kLeastShare)
-        refuse(profile,
-               fmt::format("{:.3g} times the samples of the output rate arrived, and {:.0f} % "
-                           "of them are missing",
-                           rate, 100.0 * (1.0 - share)));
+    const double rate = signal::median(pieces.rates);
+    if (std::abs(rate - 1.0) > kMostRateError)
+        refuse(profile, fmt::format("{:.3g} times the samples of the output rate arrived", rate));
+    const double following = signal::median(pieces.shares_following);
+    if (following < kLeastFollowing)
+        refuse(profile, fmt::format("{:.0f} % of the samples follow the one before, as if the "
+                                    "others were lost",
+                                    100.0 * following));
     const StandardGravity norm(signal::median(pieces.norms_g));
     if (!is_norm_believable(norm))
         refuse(profile, fmt::format("the acceleration reads {:.2f} g", norm.value()));

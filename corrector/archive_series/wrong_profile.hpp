@@ -19,8 +19,10 @@ inline constexpr const char* kWrongProfile = text::marked(
 /// Refuses a profile that cannot be that of a recording.
 ///
 /// The journal is read with it in pieces of ten seconds.  The profile is refused if the median piece has
-/// a norm, a temperature or a rate of samples that no sensor has (sensor_limits.hpp).  A box that is
-/// carried, a dead axis or another sensor for less than half of the time changes no median.
+/// a norm, a temperature or a rate of samples that no sensor has (sensor_limits.hpp), or if hardly a
+/// sample follows the one before, as with a profile of a higher rate.  A box that is carried, a dead
+/// axis or another sensor for less than half of the time changes no median, and lost samples change
+/// none.  A journal without a whole piece is not judged.
 /// @param root  data root with a journal.
 /// @return a sentence if a sensor of the journal is of another product than the profile's; empty if not.
 ///         Such a sensor may have the same values.

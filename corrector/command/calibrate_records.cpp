@@ -7,6 +7,7 @@
 #include "corrector/command/record_input.hpp"
 #include "corrector/long_record/joined_record.hpp"
 #include "corrector/long_record/record_calibration.hpp"
+#include "corrector/long_record/record_tables.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/core/units.hpp"
 #include "protocol/text/aligned_text.hpp"
@@ -113,8 +114,7 @@ std::string calibrate_from_records(unit::Calibration& calibration,
         "no warm-up guidance: needed: a record that begins at most half an hour "
         "after the sensor was switched on, with --power-on"};
     std::string text;
-    for (const long_record::RefusedPart& part : parts.refused)
-        text += fmt::format("from {} {}\n", to_rfc3339(part.start), part.reason);
+    for (const std::string& line : long_record::refused_parts(parts)) text += line + '\n';
     std::vector<long_record::TwoPathFit> fits;
     std::vector<std::string> lacks;
     for (long_record::RecordSegment segment : parts.segments) {

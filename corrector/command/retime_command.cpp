@@ -48,8 +48,7 @@ void run(const RetimeOptions& options) {
     if (report.unsynchronised_runs > 0)
         std::cerr << fmt::format(
             "a351-correct: in {} of {} runs the host's clock was never synchronised: nothing "
-            "corrects "
-            "their times\n",
+            "corrects their times\n",
             report.unsynchronised_runs, report.counters.sessions);
     std::cout << fmt::format(
         "{}: {} records of {} runs from {} journal segments; {} frames, {} gaps, {} samples "

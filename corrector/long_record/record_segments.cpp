@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include "corrector/archive_series/wrong_profile.hpp"
 #include "corrector/reading/disturbance.hpp"
@@ -199,7 +200,6 @@ private:
 
     std::vector<bool> refuse_values(const RecordStretch& stretch) {
         std::vector<bool> is_refused(stretch.size(), false);
-        refuse_unbelievable(is_refused, stretch);
         std::vector<EqualRun> still = equal_runs(stretch.temperature_degc, kSame_degc);
         remove_coarse_runs(still, stretch.temperature_degc, kSame_degc);
         refuse_stuck(is_refused, stretch, stretch.temperature_degc, still,
@@ -215,10 +215,12 @@ private:
         for (std::size_t k = 0; k < stretch.axes_mgal.size(); ++k)
             refuse_stuck(is_refused, stretch, stretch.axes_mgal[k],
                          equal_runs(stretch.axes_mgal[k], kSame_mgal), kNames.at(k), "mGal");
+        refuse_unbelievable(is_refused, stretch);
         return is_refused;
     }
 
-    /// Refuses values that no sensor sends.  A norm alone may be relative to another one.
+    /// Refuses values that no sensor sends, and that are not refused as stuck.  A norm alone may be
+    /// relative to another one.
     void refuse_unbelievable(std::vector<bool>& is_refused, const RecordStretch& stretch) {
         const auto& axes = stretch.axes_mgal;
         const auto reason_at = [&](std::size_t i) -> text::Message {
@@ -236,10 +238,12 @@ private:
                                      text::marked_message(archive_series::kWrongProfile));
             return {};
         };
+        bool is_in_part = false;
         for (std::size_t i = 0; i < stretch.size(); ++i) {
-            text::Message reason = reason_at(i);
-            if (reason.empty()) continue;
-            if (i == 0 || !is_refused[i - 1])
+            text::Message reason = is_refused[i] ? text::Message{} : reason_at(i);
+            const bool was_in_part = std::exchange(is_in_part, !reason.empty());
+            if (!is_in_part) continue;
+            if (!was_in_part)
                 result_.refused.push_back({stretch.times[i], stretch.times[i], std::move(reason)});
             result_.refused.back().end = stretch.times[i];
             is_refused[i] = true;

@@ -59,8 +59,9 @@ struct RecordSegments {
     std::vector<RefusedPart> refused;     ///< In order of their start.
 };
 
-/// Divides a record at gaps, at steps of the acceleration and at restarts.  Stuck samples,
-/// and values that no sensor sends (sensor_limits.hpp), are refused and count as missing.  Rules: corrector/long_record/long_record.md, "Segments".
+/// Divides a record at gaps, at steps of the acceleration and at restarts.  Stuck samples, and values
+/// that no sensor sends (sensor_limits.hpp), are refused and count as missing.  Rules:
+/// corrector/long_record/long_record.md, "Segments".
 ///
 /// - Gaps of up to kLongestBridge samples, and knocks, are bridged.
 /// - `begins_with` has the break before a segment.  A change of sensor, scale or rate has priority

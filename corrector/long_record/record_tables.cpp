@@ -102,7 +102,7 @@ std::vector<RecordStatistic> record_statistics(const RecordResult& result) {
 }
 
 std::string record_text(const RecordResult& result) {
-    const std::string parts = lines_of(refused_parts(result)) + '\n';
+    const std::string parts = lines_of(refused_parts(result.parts)) + '\n';
     if (result.tilt)
         return text::aligned(segments_table(result)) + parts + tilt_reading(result) + '\n';
     const RecordAnalysis& analysis = result.analysis;
@@ -220,9 +220,9 @@ std::string tilt_reading(const RecordResult& result) {
         text::fixed(tilt.noise.points.front().deviation_mgal.value, 2));
 }
 
-std::vector<std::string> refused_parts(const RecordResult& result) {
+std::vector<std::string> refused_parts(const RecordSegments& parts) {
     std::vector<std::string> lines;
-    for (const RefusedPart& part : result.parts.refused)
+    for (const RefusedPart& part : parts.refused)
         lines.push_back(text::tr("refused {} to {}: {}", to_rfc3339(part.start),
                                  to_rfc3339(part.end), part.reason));
     return lines;

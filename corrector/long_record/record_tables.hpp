@@ -42,7 +42,7 @@ using TextTable = std::vector<std::vector<std::string>>;
 
 /// Returns one line per part of the record that is not analysed: start, end and reason; no lines if
 /// nothing was refused.
-[[nodiscard]] std::vector<std::string> refused_parts(const RecordResult& result);
+[[nodiscard]] std::vector<std::string> refused_parts(const RecordSegments& parts);
 /// Returns one line per run of bands or modes that are refused for the same reason.  It has the
 /// periods, the reason, and the record that is needed.
 [[nodiscard]] std::vector<std::string> refused_bands(const RecordResult& result);

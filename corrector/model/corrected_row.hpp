@@ -63,7 +63,8 @@ struct CorrectedRow {
     std::optional<MilliGal> u_corrected;
     /// External studentised residual; absent for `paper`.
     std::optional<double> studentised_residual;
-    /// Reasons to doubt the row without use of gravity, from judgement::correct_and_search().  No row is left out because of them.
+    /// Reasons to doubt the row without use of gravity, from judgement::correct_and_search().  No row
+    /// is left out because of them.
     std::string doubt_physical;
     /// Values of one model only.
     std::variant<std::monostate, PaperRow, WholeDayRow> own;

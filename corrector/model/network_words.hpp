@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The sentences about a network: why it cannot be adjusted, and what the user must know of it.
+/// Sentences about the equations of a network that cannot be solved, and about an adjusted network.
 
 #include <optional>
 

@@ -52,7 +52,7 @@ void add_segments(Page& document, const long_record::RecordResult& result,
                    result.tilt ? text::tr("Parts of the record without gaps.")
                                : text::tr("Parts of the record without gaps; * analysed."),
                    "llrrrl", long_record::segments_table(result));
-    add_list(section, long_record::refused_parts(result));
+    add_list(section, long_record::refused_parts(result.parts));
     add_provenance(document.add_section(text::tr("Settings, inputs, warnings")), settings,
                    result.record.inputs, text::tr("Warnings"),
                    text::each_in_words(result.record.warnings));

@@ -14,10 +14,11 @@ using namespace a351::journal;
 namespace {
 
 /// Writes the journal of a box at 1 g and 42.5 degC for two minutes.  Before sample `still` its axes
-/// are dead.
-void record(const archive::DataRoot& root, std::int64_t still = 0) {
+/// are dead, and the line loses the first `lost` of each 50 samples.
+void record(const archive::DataRoot& root, std::int64_t still = 0, std::int64_t lost = 0) {
     JournalStream stream;
     for (std::int64_t k = 0; k < 6000; ++k) {
+        if (k % 50 < lost) continue;
         wire::BurstValues values = values_of(k);
         values.temperature = -1981;
         if (k < still) values.axes = {};
@@ -56,18 +57,20 @@ TEST_CASE("a profile with which no sensor can have recorded a journal is refused
     refused({{"tick_hz = 4000", "tick_hz = 8000"}}, "0.5 times the samples");
     refused({{"code = 5 },\n    { hz = 50", "code = 6 },\n    { hz = 50"},
              {"hz = 50, code = 6", "hz = 50, code = 5"}},
-            "50 % of them are missing");
+            "0 % of the samples follow");
 }
 
 TEST_CASE(
-    "a right profile is not refused, although the axes were dead for a time, and another product "
-    "is named",
+    "a right profile is not refused, although the axes were dead for a time or the line lost much, "
+    "and another product is named",
     "[archive_series][profile]") {
-    const archive::DataRoot root, carried;
+    const archive::DataRoot root, carried, lossy;
     record(root);
     record(carried, 2400);
     CHECK(refuse_wrong_profile(root.path(), *wire::find_profile("A352AD10")).empty());
     CHECK(refuse_wrong_profile(carried.path(), *wire::find_profile("A352AD10")).empty());
+    record(lossy, 0, 30);
+    CHECK(refuse_wrong_profile(lossy.path(), *wire::find_profile("A352AD10")).empty());
     CHECK_THAT(refuse_wrong_profile(root.path(), *wire::find_profile("A370AD10")),
                ContainsSubstring("product A352AD10, profile A370AD10 is for A370AD10"));
 }

@@ -103,6 +103,15 @@ TEST_CASE("values that no sensor sends are refused with the remedy", "[long_reco
                                             ContainsSubstring("a351-correct retime --profile"));
 }
 
+TEST_CASE("a dead sensor is named as stuck, not as one with a wrong profile", "[long_record][segments]") {
+    LongRecord record = night();
+    record.stretches[0].axes_mgal.assign(3, std::vector<double>(record.stretches[0].size(), 0.0));
+    const RecordSegments parts = divide_record(record);
+    CHECK(parts.segments.empty());
+    REQUIRE(parts.refused.size() == 3);
+    CHECK(parts.refused[0].reason == "the x axis is stuck at 0.0000 mGal");
+}
+
 TEST_CASE("a stuck temperature is refused with its value, and so is a remainder that is too short",
           "[long_record][segments]") {
     LongRecord record = night();
