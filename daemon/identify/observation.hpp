@@ -24,7 +24,7 @@ struct Observation {
     /// Result of the test that the reset of this question made.
     wire::StartUpTest start_up_test = wire::StartUpTest::unknown;
     std::vector<wire::RegisterValue> registers;  ///< Read before a setting was written.
-    int repeated_reads = 0;        ///< Number of reads that were repeated, of these and any other.
+    int repeated_reads = 0;        ///< Number of reads of any register that were repeated.
     std::vector<std::byte> bytes;  ///< Received while sampling.
     std::vector<journal::ReadStamp> reads;  ///< Arrivals of `bytes`.
     UtcTime time;                           ///< Time of the end.

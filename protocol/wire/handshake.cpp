@@ -115,7 +115,7 @@ void Handshake::wait(milliseconds time) {
 void Handshake::ask(Take take, const Register& reg) {
     take_ = take;
     asked_ = &reg;
-    tries_left_ = kTries;
+    tries_left_ = take == nullptr && !reads_all_registers_ ? 1 : kTries;  // not every device has an ID
     queue_read();
 }
 
@@ -144,7 +144,7 @@ void Handshake::take_answer(std::span<const std::byte> answer) {
     const auto value = parse_answer(*asked_, answer);
     const bool is_required = take_ != nullptr;
     if (!value && (is_required || tries_left_ > 1)) {
-        is_result_lost_ |= asked_ == &kDiagStat;
+        is_result_lost_ |= is_required && asked_ == &kDiagStat;
         return retry(fmt::format("{}: expected an answer of 4 bytes, found none in {} tries",
                                  asked_->name, kTries));
     }

@@ -207,6 +207,8 @@ TEST_CASE("a contradiction stays after the stop until it is checked or the figur
         figures("contradictions", "reference");
         CHECK(word() == R"("look")");
         page.ask(post("/api/occupation/stop", R"({"at":"2026-03-14T08:20:00Z"})"));
+        page.gravity_so_far = R"({"reason":"too_few_readings","contradictions":[],"lesser_contradictions":[]})";
+        word();  // A day that cannot be corrected ends no contradiction.
         figures("lesser_contradictions", "references");
         CHECK(word() == R"("look")");
         if (is_checked)
