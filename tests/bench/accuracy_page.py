@@ -11,6 +11,7 @@ import pathlib
 import re
 import shlex
 import subprocess
+import tempfile
 
 from command_line import command_line
 
@@ -28,12 +29,15 @@ def output_of(command):
     """Runs a command, shows each line when it comes, and returns the lines."""
     print(f"$ {command}", flush=True)
     lines = []
-    with subprocess.Popen(shlex.split(command), cwd=TOP, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                          env={**os.environ, "PYTHONUNBUFFERED": "1"}) as bench:
+    with tempfile.TemporaryFile("w+") as errors, subprocess.Popen(
+            shlex.split(command), cwd=TOP, stdout=subprocess.PIPE, stderr=errors, text=True,
+            env={**os.environ, "PYTHONUNBUFFERED": "1"}) as bench:
         for line in bench.stdout:
             print(line, end="", flush=True)
             lines.append(line.rstrip("\n"))
-        failure = bench.stderr.read()
+        bench.wait()
+        errors.seek(0)
+        failure = errors.read()
     # Status 1 is that of a promise that is not kept, and of a script that failed.
     if bench.returncode not in (0, 1) or not lines or "Traceback" in failure:
         raise SystemExit(f"{command} ended with {bench.returncode}: {failure[-400:]}")
