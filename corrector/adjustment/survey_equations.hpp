@@ -35,8 +35,9 @@
 namespace a351::corrector::adjustment {
 
 /// Pause between two readings that begins a new loop, h.  Reason: it is a night.  Of the surveys in
-/// tests/golden the shortest night has 12.9 h, and the longest pause of a day 6.8 h.  A date would not
-/// do: UTC changes it at noon in some countries, and a table does not have the local one.
+/// tests/golden the shortest night has 12.9 h; the longest pause of a day has 6.8 h in an excerpt, and
+/// 3 h in a whole file.  A date would not do: UTC changes it at noon in some countries, and a table does
+/// not have the local one.
 inline constexpr double kLoopPause_h = 8.0;
 
 /// Returns the number of the loop of each row, from 0 in order of their first row.  A loop is of one

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "corrector/whole_day/day_priors.hpp"
+#include "protocol/unit/thermal_response.hpp"
 
 namespace a351::corrector::design {
 namespace {
@@ -62,7 +62,7 @@ TimeSeries<DegC> planned_temperature(UtcTime start, UtcTime end, double walk_deg
         for (std::size_t i = 0; i < degc.size(); ++i)
             degc[i] += degc_peak * std::cos(step * static_cast<double>(i) + phase_rad);
     };
-    std::ranges::fill(degc, whole_day::kOvenSetPoint_degc);
+    std::ranges::fill(degc, unit::kTypicalUnit.set_point_degc);
     for (std::size_t wave = 0; wave < kWaves_h.size(); ++wave)
         add(amplitude * std::sqrt(kWaves_h.at(wave)), kSecondsPerHour * kWaves_h.at(wave),
             phase(course, wave));

@@ -6,6 +6,7 @@
 
 #include "corrector/figure/long_record_figures.hpp"
 #include "protocol/core/units.hpp"
+#include "protocol/signal/distributions.hpp"
 #include "protocol/text/message.hpp"
 
 namespace a351::corrector::figure {
@@ -42,8 +43,7 @@ std::string fit_line(const long_record::TwoPathFit& fit, double period_s) {
         slope(static_cast<Eigen::Index>(k)) = (log_response(more, period_s) - here) / kStep;
     }
     const auto half_width = [&](const Eigen::VectorXd& of) {
-        constexpr double kNormal95 = 1.96;
-        return kNormal95 * std::sqrt(of.dot(fit.covariance * of));
+        return signal::kNormal95 * std::sqrt(of.dot(fit.covariance * of));
     };
     const double factor = std::exp(half_width(slope.real()));
     const double gain = std::exp(here.real()), phase = here.imag() * kDegPerRad;

@@ -15,8 +15,6 @@
 namespace a351::corrector::noise {
 namespace {
 
-constexpr double kNormalLimit = 1.959964;  // 95 % of a normal distribution are within +- this
-
 /// Returns the effect of the three squared noises on the variance of averages over t, unit noises.
 Eigen::Vector3d variances_at(double t) {
     return {1.0 / t, 2.0 * std::numbers::ln2 / std::numbers::pi, t / 3.0};
@@ -124,12 +122,12 @@ struct Fit {
 /// Probability below which the noises do not describe the record.
 constexpr double kMisfit = 0.001;
 
-/// Returns the squares s from which an estimate differs by at most kNormalLimit standard errors.
+/// Returns the squares s from which an estimate differs by at most signal::kNormal95 standard errors.
 ///
 /// The square of the standard error is variance[0] + variance[1] s + variance[2] s^2.  It belongs
 /// to s and not to the estimate, because it would be too small for an estimate of 0.
 Limits limits_of(double estimate, const std::array<double, 3>& variance) {
-    constexpr double z2 = kNormalLimit * kNormalLimit;
+    constexpr double z2 = signal::kNormal95 * signal::kNormal95;
     // (s - estimate)^2 = z^2 variance: a s^2 - 2 b s + c = 0
     const double a = 1.0 - z2 * variance[2], b = estimate + 0.5 * z2 * variance[1],
                  c = estimate * estimate - z2 * variance[0];

@@ -10,6 +10,7 @@
 #include "corrector/whole_day/day_model.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/core/units.hpp"
+#include "protocol/signal/distributions.hpp"
 
 namespace a351::corrector::series {
 namespace {
@@ -43,7 +44,7 @@ void require_placement_series(const reading::OccupationRows& read, std::size_t s
 }
 
 unit::Placement with_limits(double mgal, double log_error) {
-    const double factor = std::exp(unit::Placement::kNormal95 * log_error);
+    const double factor = std::exp(signal::kNormal95 * log_error);
     return {mgal, mgal / factor, mgal * factor};
 }
 

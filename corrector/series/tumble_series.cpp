@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "corrector/whole_day/day_noise.hpp"
-#include "corrector/whole_day/day_priors.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/core/units.hpp"
 #include "protocol/linear_algebra/cholesky.hpp"
@@ -47,8 +46,8 @@ constexpr double kUsefulBias_mgal_per_g = 300.0;
 // response would be this.  A larger error says little about the share of the scale.
 constexpr double kUsefulSlope_mgal_per_degc =
     -0.1 * (unit::kTypicalUnit.level_mgal_per_degc + unit::kTypicalUnit.slow_mgal_per_degc);
-// Temperature at which unit::Faces has its constants.
-constexpr double kFacesTemperature_degc = whole_day::kOvenSetPoint_degc;
+// Temperature at which unit::Faces has its constants.  It belongs to the format of calibrations.
+constexpr double kFacesTemperature_degc = 42.5;
 
 /// A position: mean vector, temperature above the mean, gravity with its tide, error of the reading.
 struct Position {

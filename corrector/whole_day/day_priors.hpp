@@ -15,10 +15,6 @@
 
 namespace a351::corrector::whole_day {
 
-/// Set point of the publication's oven, degC: T0 of the model (day_model.hpp).  Source: Matsuda et al.,
-/// whose box keeps this temperature.
-inline constexpr double kOvenSetPoint_degc = 42.5;
-
 /// Terms of the model: c, rA, rS, rF, d, w, bx, by, k.
 ///
 /// - constant: c, mGal; level: rA and slow: rS, mGal/degC; fast: rF, mGal/(degC/h).

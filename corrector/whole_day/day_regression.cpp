@@ -131,7 +131,7 @@ void DayRegression::set_fixed_columns() {
     const auto column = [this](DayTerm term) { return fixed_.col(static_cast<Index>(term)); };
     column(DayTerm::constant).setOnes();
     column(DayTerm::level) =
-        means().of(record_.temperature.series.values()).array() - kOvenSetPoint_degc;
+        means().of(record_.temperature.series.values()).array() - unit::kTypicalUnit.set_point_degc;
     const UtcTime begin = record_.temperature.series.start();
     const UtcTime middle =
         record_.bins.front().time + (record_.bins.back().time - record_.bins.front().time) / 2;
@@ -192,7 +192,7 @@ Eigen::VectorXd DayRegression::on_scale_sd() const {
 std::array<Eigen::VectorXd, 2> DayRegression::lag_effects(const Point& u) const {
     const double fast_lag_s = lag_s(u, kFastLag);
     auto columns = temperature_->behind({fast_lag_s, lag_s(u, kSlowLag)});
-    for (Eigen::VectorXd& column : columns) column.array() -= kOvenSetPoint_degc;
+    for (Eigen::VectorXd& column : columns) column.array() -= unit::kTypicalUnit.set_point_degc;
     columns[0] = (fixed_.col(static_cast<Index>(DayTerm::level)) - columns[0]) *
                  (kSecondsPerHour / fast_lag_s);
     return columns;

@@ -9,7 +9,7 @@ namespace a351::daemon::verdict {
 /// config::read_verdict().
 struct Options {
     // The oven.
-    double operating_degc = unit::kTypicalUnit.set_point_degc;  ///< Set point.
+    double operating_degc = unit::kTypicalUnit.set_point_degc;  ///< That of the published unit.
     double warm_up_degc = 1.0;     ///< Largest distance from it; a day in the field was within 0.5.
     double cycle_s = 900.0;        ///< Period of its cycle, s: 10 to 15 min were published.
     double history_min = 20.0;     ///< Time of temperature before it is judged: more than a cycle.

@@ -85,11 +85,8 @@ struct Placement {
 
     /// Returns the standard error of ln(standard deviation), if that is normal.
     [[nodiscard]] double log_error() const {
-        return std::log(high_mgal / low_mgal) / (2.0 * kNormal95);
+        return std::log(high_mgal / low_mgal) / (2.0 * signal::kNormal95);
     }
-
-    /// Half width of the limits in standard errors.
-    static constexpr double kNormal95 = signal::kNormal95;
 };
 
 /// Scale factor: change of the reading divided by that of gravity.

@@ -61,7 +61,7 @@ struct TypicalUnit {
     double slow_lag_s = 2700.0;              ///< tS
     double warm_up_mgal = 36.0;              ///< Effect at power-on that the thermometer misses.
     double warm_up_h = 2.5;                  ///< Time constant of its decay.
-    double set_point_degc = 42.5;            ///< Set point of its oven.
+    double set_point_degc = 42.5;            ///< Set point of its oven in the publication.
 };
 inline constexpr TypicalUnit kTypicalUnit;
 
