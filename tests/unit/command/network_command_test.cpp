@@ -38,10 +38,13 @@ void write_sites(const test::TemporaryDirectory& folder, bool has_datum = true) 
 
 /// Writes one reading every 45 min and one loop per day; temperature and drift of the instrument
 /// continue between days.
+/// @param admittance_mgal_per_hpa  effect of the air pressure; 0: the table has none.
 void write_readings(const test::TemporaryDirectory& folder, const std::vector<Loop>& loops,
-                    bool is_steady = false) {
+                    bool is_steady = false, double admittance_mgal_per_hpa = 0.0) {
+    const bool has_pressure = admittance_mgal_per_hpa != 0.0;
     std::string csv =
-        "site,occupation,time_utc,earth_tide_mgal,acceleration_mgal,temperature_degc\n";
+        "site,occupation,time_utc,earth_tide_mgal,acceleration_mgal,temperature_degc" +
+        std::string(has_pressure ? ",pressure_hpa\n" : "\n");
     std::map<std::string, int> stays;
     for (std::size_t day = 0; day < loops.size(); ++day) {
         for (std::size_t i = 0; i < loops[day].size(); ++i) {
@@ -50,11 +53,13 @@ void write_readings(const test::TemporaryDirectory& folder, const std::vector<Lo
                                  std::chrono::minutes(45 * i) + std::chrono::days(day);
             const double h = 24.0 * static_cast<double>(day) + 0.75 * static_cast<double>(i);
             const double degc = is_steady ? 42.5 : 42.5 + 0.3 * std::sin(1.7 * h);
+            const double pressure_hpa = 1000.0 + 12.0 * std::sin(2.3 * h);
             const double reading =
-                gravity_mgal(site) + 1850.0 + kSlope_mgal_per_degc * (degc - 42.6) +
+                gravity_mgal(site) + 1850.0 + admittance_mgal_per_hpa * pressure_hpa + kSlope_mgal_per_degc * (degc - 42.6) +
                 kDrift_mgal_per_h * (h - 5.0) + kQuadratic_mgal_per_h2 * (h - 5.0) * (h - 5.0);
             csv += site + ',' + std::to_string(++stays[site]) + ',' + to_rfc3339(time) + ",0," +
-                   text::shortest(reading) + ',' + text::shortest(degc) + '\n';
+                   text::shortest(reading) + ',' + text::shortest(degc) +
+                   (has_pressure ? ',' + text::shortest(pressure_hpa) : "") + '\n';
         }
     }
     folder.write("readings.csv", csv);
@@ -63,6 +68,15 @@ void write_readings(const test::TemporaryDirectory& folder, const std::vector<Lo
 Outcome adjust(const test::TemporaryDirectory& folder, const std::string& options = "") {
     return run(folder,
                "table --sites sites.csv --observations readings.csv --model network " + options);
+}
+
+/// Returns the coefficients of the result, by name.
+std::map<std::string, double> coefficients(const test::TemporaryDirectory& folder) {
+    const auto json =
+        nlohmann::json::parse(text::read_text_file(folder.path() / "result/result.json"));
+    std::map<std::string, double> found;
+    for (const auto& one : json["coefficients"]) found[one["name"]] = one["value"];
+    return found;
 }
 
 }  // namespace
@@ -75,10 +89,7 @@ TEST_CASE("table finds a known quadratic drift and the unknown stations of a net
     const Outcome outcome = adjust(folder, "--drift-degree 2");
     CHECK(outcome.status == 0);
     CHECK(outcome.errors.empty());
-    const auto json =
-        nlohmann::json::parse(text::read_text_file(folder.path() / "result/result.json"));
-    std::map<std::string, double> found;
-    for (const auto& one : json["coefficients"]) found[one["name"]] = one["value"];
+    auto found = coefficients(folder);
     // Readings of 1e6 mGal are rounded to 1.2e-10 mGal, and the day lasts eight hours.
     CHECK(found["time2_mgal_per_h2"] == Approx(kQuadratic_mgal_per_h2).epsilon(0).margin(1e-8));
     CHECK(found["time_mgal_per_h"] == Approx(kDrift_mgal_per_h).epsilon(0).margin(1e-8));
@@ -94,6 +105,18 @@ TEST_CASE("table finds a known quadratic drift and the unknown stations of a net
     CHECK(adjust(folder, "--out line").status == 0);
     const auto bent = text::read_csv(folder.path() / "line/stations.csv");
     CHECK(std::abs(bent.number(1, "gravity_mgal") - gravity_mgal("S1")) > 0.1);
+}
+
+TEST_CASE("table fits the whole effect of the air pressure, not what another value has left",
+          "[network_command]") {
+    const test::TemporaryDirectory folder;
+    write_sites(folder);
+    write_readings(folder, {kDay}, false, -0.0005);
+    const Outcome outcome = adjust(folder, "--drift-degree 2 --fit-admittance");
+    CAPTURE(outcome.errors);
+    REQUIRE(outcome.status == 0);
+    CHECK(coefficients(folder)["admittance_mgal_per_hpa"] ==
+          Approx(-0.0005).epsilon(0).margin(1e-7));
 }
 
 TEST_CASE("a network with something undetermined is refused in one line that names it",
