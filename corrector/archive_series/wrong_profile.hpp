@@ -24,8 +24,8 @@ inline constexpr const char* kWrongProfile = text::marked(
 /// axis or another sensor for less than half of the time changes no median, and lost samples change
 /// none.  A journal without a whole piece is not judged.
 /// @param root  data root with a journal.
-/// @return a sentence if a sensor of the journal is of another product than the profile's; empty if not.
-///         Such a sensor may have the same values.
+/// @return a warning if a sensor of the journal is of another product than the profile's; empty if not.
+///         Two products can have the same scales, so another product alone is not refused.
 /// @throws InputError  the profile is refused, with the value, the cause and the remedy; or it lacks a
 ///                     setting of the journal.
 [[nodiscard]] text::Message refuse_wrong_profile(const std::filesystem::path& root,

@@ -18,7 +18,7 @@ namespace a351::daemon::verdict {
 
 enum class State { no_data, warming_up, disturbed, settling, stable };
 
-/// What is missing while there are no data.
+/// Reason of the state no_data: these are missing.
 enum class Lack {
     samples,  ///< None arrive.
     values,   ///< Samples arrive, and the filters of the live series fill: at a start, after a gap.

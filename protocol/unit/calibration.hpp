@@ -106,10 +106,11 @@ inline constexpr double kUsualScaleDeviation = 2e-3;
 /// Errors of the vertical axis in two faces, each a straight line in the temperature T in degC:
 ///
 ///     z up: reading = gravity (1 + scale) + bias,   z down: gravity (1 + scale) - bias
-///     bias = bias_mgal + bias_mgal_per_degc (T - T0)
-///     980665 scale = scale_mgal + scale_mgal_per_degc (T - T0)
+///     bias = bias_mgal + bias_mgal_per_degc (T - 42.5)
+///     980665 scale = scale_mgal + scale_mgal_per_degc (T - 42.5)
 ///
-/// T0 is the set point of the typical unit.  A quadratic term of the axis is part of the bias.
+/// 42.5 degC belongs to the format (calibration-format.md).  A quadratic term of the axis is part of
+/// the bias.
 inline constexpr std::array<std::string_view, 4> kFacesNames{
     "bias_mgal", "scale_mgal", "bias_mgal_per_degc", "scale_mgal_per_degc"};
 /// These coefficients with their covariance.  Range in a file: constants +-1e5, slopes +-1e4.
