@@ -91,7 +91,7 @@ void log_doubt(const survey::Occupations& occupations, spdlog::logger& log) {
 }
 
 /// Reads the configuration again after SIGHUP.
-void hang_up(const config::Config& config, const recorder::Reloaded& parts, spdlog::logger& log) {
+void hang_up(const config::Config& config, const recorder::ReloadedParts& parts, spdlog::logger& log) {
     try {
         recorder::reload(config, parts, [&] { log_doubt(parts.occupations, log); });
         log.info(
@@ -242,7 +242,7 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
                        .stale_after = config::stale_after(clock)});
     announce(page, config, log);
     log_doubt(occupations, log);
-    const recorder::Reloaded reloaded{live, occupations, gravity, page};
+    const recorder::ReloadedParts reloaded{live, occupations, gravity, page};
     other_unit = [&](const events::Event& event) {
         live.begin_unit(event.utc);
         page.post([&occupations, &note_change, &log_signal, event] {

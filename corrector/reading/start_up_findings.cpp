@@ -4,19 +4,10 @@
 
 namespace a351::corrector::reading {
 
-namespace {
-
-std::string serial_number_of(const events::Event& event) {
-    const auto found = event.details.find("serial_number");
-    return found == event.details.end() ? std::string() : found->second;
-}
-
-}  // namespace
-
 std::vector<Finding> start_up_findings(std::vector<events::Event> events,
                                        const std::string& serial_number, UtcTime from, UtcTime to) {
     std::erase_if(events, [&](const events::Event& event) {
-        const std::string tested = serial_number_of(event);
+        const std::string tested = event.detail("serial_number");
         const bool is_other = !serial_number.empty() && !tested.empty() && tested != serial_number;
         return event.type != "start_up_test" || !event.details.contains("result") || is_other;
     });
@@ -29,7 +20,7 @@ std::vector<Finding> start_up_findings(std::vector<events::Event> events,
         Finding& finding = findings.emplace_back(
             Finding{.kind = FindingKind::start_up_test, .time = events[k].utc});
         const std::string at = to_rfc3339(events[k].utc);
-        const std::string tested = serial_number_of(events[k]);
+        const std::string tested = events[k].detail("serial_number");
         const std::string unit = tested.empty() ? "?" : tested;
         if (result == "unknown") {
             finding.code = "start_up_test_unknown";

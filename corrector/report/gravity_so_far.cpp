@@ -67,6 +67,15 @@ std::vector<Stay> stays_of(const std::vector<reading::SurveyRow>& rows,
     return stays;
 }
 
+/// Returns the uncertainty of the mean of n of a station's N set-ups.  Its variance is that of the
+/// station plus placement^2 (1/n - 1/N), and the uncertainty of a single one shows the placement.
+double u_of_mean(double u_set_up, std::size_t n, double u_station, std::size_t count) {
+    if (n >= count) return u_station;
+    const double rest = 1.0 / static_cast<double>(count);
+    const double share = (1.0 / static_cast<double>(n) - rest) / (1.0 - rest);
+    return std::sqrt(share * u_set_up * u_set_up + (1.0 - share) * u_station * u_station);
+}
+
 /// Sets the value of a stay with rows.  That of a known station does not use its own reference.
 /// @param factor      of all uncertainties, while something contradicts.
 /// @param is_named    the stay is one of those that contradict: its difference from the reference, or
@@ -75,7 +84,6 @@ void add_value(Json& json, const Stay& stay, const model::SurveyCorrection& resu
                std::optional<MilliGal> u_evening, double factor, bool is_named) {
     if (stay.rows.empty()) return;
     const model::StationValue* const station = result::find_station(result, stay.site);
-    const bool is_whole_station = station != nullptr && station->row_count == stay.rows.size();
     const auto& reference = result.rows[stay.rows.front()].row.reference;
     double sum = 0.0, least = HUGE_VAL, most = -HUGE_VAL;
     std::size_t known = 0;
@@ -97,8 +105,8 @@ void add_value(Json& json, const Stay& stay, const model::SurveyCorrection& resu
         return;
     }
     const double gravity = sum / static_cast<double>(stay.rows.size());
-    if (is_whole_station && stay.rows.size() > 1 && station->u_gravity)
-        u = station->u_gravity->value();
+    if (u && station != nullptr && station->u_left_out)
+        u = u_of_mean(*u, stay.rows.size(), station->u_left_out->value(), station->row_count);
     json["gravity_mgal"] = gravity;
     const double off = reference ? gravity - reference->value() : 0.0;
     if (reference) json["left_out_difference_mgal"] = off;

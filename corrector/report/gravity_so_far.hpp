@@ -30,9 +30,8 @@ struct GravitySoFar {
 ///
 /// - gravity_mgal: mean of the corrected values of its set-ups; of a known station without its own
 ///   reference.
-/// - u_mgal: standard uncertainty as if the station were unknown; of the running stay `u_evening`; of
-///   a stay with several set-ups at a station that has more stays, the largest of its set-ups.  While
-///   something contradicts it is larger: judgement::doubt_factor(), and the difference from the
+/// - u_mgal: standard uncertainty as if the station were unknown; of the running stay `u_evening`.
+///   While something contradicts it is larger: judgement::doubt_factor(), and the difference from the
 ///   reference of a stay that is named.
 /// - missing_parts: what is needed before gravity is known; null if it is.
 /// - left_out_difference_mgal: value without the station's reference, minus the reference.

@@ -25,17 +25,17 @@ gravity::GravityOptions gravity_options(const config::Config& config) {
     return options;
 }
 
-void reload(const config::Config& config, const Reloaded& parts,
-            const std::function<void()>& taken) {
+void reload(const config::Config& config, const ReloadedParts& parts,
+            const std::function<void()>& then) {
     const config::Config fresh = config::read_config(config.file);
     parts.live.judge_by(fresh.verdict);
     config::Config with_sites = config;
     with_sites.survey.sites_file = fresh.survey.sites_file;
     parts.gravity.use(gravity_options(with_sites));
-    parts.page.post([&occupations = parts.occupations, taken, sites = fresh.survey.sites,
+    parts.page.post([&occupations = parts.occupations, then, sites = fresh.survey.sites,
                      options = occupation_options(fresh)] {
         occupations.use(sites, options);
-        taken();
+        then();
     });
 }
 

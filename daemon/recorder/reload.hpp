@@ -17,7 +17,7 @@ namespace a351::daemon::recorder {
 [[nodiscard]] gravity::GravityOptions gravity_options(const config::Config& config);
 
 /// The parts of the recorder that take a configuration which is read again.
-struct Reloaded {
+struct ReloadedParts {
     live::Record& live;
     survey::Occupations& occupations;
     gravity::GravitySoFar& gravity;
@@ -26,9 +26,9 @@ struct Reloaded {
 
 /// Reads the configuration again, and takes sites, the plan of a stay and thresholds from it.
 /// @param config  that of the start.
-/// @param taken   is called on the page's thread when the occupations have taken theirs.
+/// @param then    is called on the page's thread when the occupations have their new sites and plan.
 /// @throws InputError  the file is refused, and nothing was changed.
-void reload(const config::Config& config, const Reloaded& parts,
-            const std::function<void()>& taken);
+void reload(const config::Config& config, const ReloadedParts& parts,
+            const std::function<void()>& then);
 
 }  // namespace a351::daemon::recorder

@@ -21,10 +21,6 @@ events::Event event_at(std::string type, const Instant& instant) {
     return {std::move(type), instant.utc, instant.session, instant.index, {}};
 }
 
-std::string detail(const events::Event& event, const std::string& key) {
-    return event.details.contains(key) ? event.details.at(key) : "";
-}
-
 void add_face(events::Event& event, const events::StatedFace& face) {
     if (face.entered) add(event, "face", std::string(events::sign_of(*face.entered)));
     if (face.planned) add(event, "planned_face", std::string(events::sign_of(*face.planned)));
@@ -298,8 +294,8 @@ void Occupations::observe(const events::Event& event) {
 /// Notes what does not concern occupations.
 void Occupations::note_aside(const events::Event& event) {
     last_event_ = event.utc;
-    if (const std::string code = detail(event, kChecked); !code.empty())
-        checked_[{code, detail(event, "key")}] = event.utc;
+    if (const std::string code = event.detail(kChecked); !code.empty())
+        checked_[{code, event.detail("key")}] = event.utc;
 }
 
 Outcome Occupations::commit(events::Event event, text::Message message) {

@@ -45,12 +45,12 @@ SoFarReader::SoFarReader(const std::vector<events::Event>& events,
                          std::function<void(const events::Event&)> note)
     : note_(std::move(note)) {
     for (const events::Event& event : events) {
-        const auto key = event.details.find("key"), code = event.details.find("code");
-        if (event.type != kEvent || key == event.details.end()) continue;
-        if (code == event.details.end())
-            said_.erase(key->second);
+        const std::string key = event.detail("key"), code = event.detail("code");
+        if (event.type != kEvent || key.empty()) continue;
+        if (code.empty())
+            said_.erase(key);
         else
-            said_[key->second] = code->second;
+            said_[key] = code;
     }
 }
 

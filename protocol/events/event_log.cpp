@@ -73,6 +73,11 @@ std::vector<bool> find_repeated(const std::vector<std::string>& lines,
 
 }  // namespace
 
+std::string Event::detail(const std::string& key) const {
+    const auto found = details.find(key);
+    return found == details.end() ? std::string() : found->second;
+}
+
 std::string to_json(const Event& event) {
     Json json = {{"type", event.type}, {"utc", to_rfc3339(event.utc, 9)}};
     if (event.session) json["session"] = event.session->to_hex();

@@ -37,6 +37,9 @@ struct Event {
     std::optional<journal::SessionId> session;   ///< Run of sampling, as in the journal.
     std::optional<std::int64_t> index;           ///< Sample at that instant.
     std::map<std::string, std::string> details;  ///< site, operator, note ...: text only.
+
+    /// Returns a detail; empty without it.
+    [[nodiscard]] std::string detail(const std::string& key) const;
 };
 
 /// Returns the event as one line.  Bytes that are not UTF-8 become U+FFFD.

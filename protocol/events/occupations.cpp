@@ -16,13 +16,8 @@ constexpr const char* kKey = "key";
 
 UtcTime start_of(const Occupation& occupation) { return occupation.set_ups.front().start; }
 
-std::string detail(const Event& event, const std::string& key) {
-    const auto found = event.details.find(key);
-    return found == event.details.end() ? std::string() : found->second;
-}
-
 /// Returns the name of the site in the form of the list of sites, so that stays are counted right.
-std::string site_of(const Event& event) { return text::plain_text(detail(event, "site")); }
+std::string site_of(const Event& event) { return text::plain_text(event.detail("site")); }
 
 void add_text(std::string& notes, const std::string& text) {
     if (text.empty()) return;
@@ -30,10 +25,10 @@ void add_text(std::string& notes, const std::string& text) {
     notes += text;
 }
 
-void add_note(std::string& notes, const Event& event) { add_text(notes, detail(event, "note")); }
+void add_note(std::string& notes, const Event& event) { add_text(notes, event.detail("note")); }
 
 StatedFace face_of(const Event& event) {
-    return {parse_face(detail(event, "face")), parse_face(detail(event, "planned_face"))};
+    return {parse_face(event.detail("face")), parse_face(event.detail("planned_face"))};
 }
 
 /// Returns the set-ups of a stay between these limits, without those of no duration.
@@ -96,12 +91,12 @@ void OccupationReplay::apply(const Event& event) {
     if (event.type == "discard") discard(event);
     if (event.type == "resume") resume(event);
     if (event.type == "retime") retime(event);
-    if (event.type == "restore" && !detail(event, kKey).empty())
+    if (event.type == "restore" && !event.detail(kKey).empty())
         if (Ended* const ended = ended_of(event)) ended->is_discarded = false;
-    if (event.type == "not_moved" && !detail(event, kKey).empty())
+    if (event.type == "not_moved" && !event.detail(kKey).empty())
         if (RunningOccupation* const stay = stay_of(event)) stay->not_moved_until = event.utc;
     if (event.type == "note") {
-        RunningOccupation* const stay = !detail(event, kKey).empty() ? stay_of(event)
+        RunningOccupation* const stay = !event.detail(kKey).empty() ? stay_of(event)
                                         : running_                   ? &*running_
                                                                      : nullptr;
         if (stay) add_note(stay->note, event);
@@ -109,8 +104,8 @@ void OccupationReplay::apply(const Event& event) {
     if (!running_) return;
     // A stay that began after the last sample of the sensor before is one of the new sensor.
     if (event.type == "other_unit" && event.utc > running_->start) {
-        add_text(running_->note, "another sensor: " + detail(event, "serial_number") + " after " +
-                                     detail(event, "before"));
+        add_text(running_->note, "another sensor: " + event.detail("serial_number") + " after " +
+                                     event.detail("before"));
         return end_running(std::max(event.utc, running_->set_ups.back()), true);
     }
     if (event.type == "setup") {
@@ -135,7 +130,7 @@ std::string OccupationReplay::key_for(UtcTime start) const {
 
 void OccupationReplay::start(const Event& event) {
     if (running_) end_running(event.utc, false);
-    std::string key = detail(event, kKey);
+    std::string key = event.detail(kKey);
     if (key.empty() || keys_.contains(key)) key = key_for(event.utc);
     keys_.insert(key);
     running_ = RunningOccupation{.key = key,
@@ -145,10 +140,10 @@ void OccupationReplay::start(const Event& event) {
                                  .faces = {{event.utc, face_of(event)}},
                                  .session = event.session,
                                  .index = event.index,
-                                 .operator_name = detail(event, "operator"),
+                                 .operator_name = event.detail("operator"),
                                  .note = {}};
     add_note(running_->note, event);
-    running_->planned_set_ups = parse_planned_set_ups(detail(event, "set_ups"));
+    running_->planned_set_ups = parse_planned_set_ups(event.detail("set_ups"));
 }
 
 void OccupationReplay::end_running(UtcTime end, bool is_stopped) {
@@ -161,7 +156,7 @@ void OccupationReplay::end_running(UtcTime end, bool is_stopped) {
 /// Returns the ended stay that the event's key names; without a key, the last one that was not
 /// discarded.
 OccupationReplay::Ended* OccupationReplay::ended_of(const Event& event) {
-    const std::string key = detail(event, kKey);
+    const std::string key = event.detail(kKey);
     const auto found = std::find_if(ended_.rbegin(), ended_.rend(), [&](const Ended& one) {
         return key.empty() ? !one.is_discarded : one.stay.key == key;
     });
@@ -170,7 +165,7 @@ OccupationReplay::Ended* OccupationReplay::ended_of(const Event& event) {
 
 /// Returns the stay that the event's key names; without a key, the running or else the last one.
 RunningOccupation* OccupationReplay::stay_of(const Event& event) {
-    const std::string key = detail(event, kKey);
+    const std::string key = event.detail(kKey);
     if (running_ && (key.empty() || key == running_->key)) return &*running_;
     Ended* const ended = ended_of(event);
     return ended ? &ended->stay : nullptr;
@@ -184,7 +179,7 @@ void OccupationReplay::rename(const Event& event) {
 }
 
 void OccupationReplay::discard(const Event& event) {
-    const std::string key = detail(event, kKey);
+    const std::string key = event.detail(kKey);
     if (running_ && (key.empty() || key == running_->key)) {
         const std::size_t before = ended_.size();
         end_running(event.utc, true);
@@ -195,7 +190,7 @@ void OccupationReplay::discard(const Event& event) {
 }
 
 void OccupationReplay::resume(const Event& event) {
-    if (running_ || detail(event, kKey).empty()) return;
+    if (running_ || event.detail(kKey).empty()) return;
     Ended* const ended = ended_of(event);
     if (!ended || ended->is_discarded) return;
     std::vector<UtcTime> starts = starts_of(*ended);
@@ -206,9 +201,9 @@ void OccupationReplay::resume(const Event& event) {
 }
 
 void OccupationReplay::retime(const Event& event) {
-    if (detail(event, kKey).empty()) return;
-    const auto from = parse_rfc3339(detail(event, "from")), to = parse_rfc3339(detail(event, "to"));
-    if (running_ && running_->key == detail(event, kKey)) {
+    if (event.detail(kKey).empty()) return;
+    const auto from = parse_rfc3339(event.detail("from")), to = parse_rfc3339(event.detail("to"));
+    if (running_ && running_->key == event.detail(kKey)) {
         if (from) move_start(*running_, starts_within(running_->set_ups, *from, UtcTime::max()));
     } else if (Ended* const ended = ended_of(event)) {
         ended->is_stopped = ended->is_stopped || to;

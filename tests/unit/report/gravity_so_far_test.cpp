@@ -1,6 +1,8 @@
 #include "corrector/report/gravity_so_far.hpp"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "tests/support/catch.hpp"
 
@@ -37,6 +39,38 @@ TEST_CASE("a remark on two set-ups of a stay is said once, with the larger numbe
     CHECK(said ==
           "no samples|too short|11.6 mGal above its reference, 3.9 times the uncertainty expected if "
           "name and reference are right|");
+}
+
+TEST_CASE("u of a stay is that of the mean of its set-ups", "[report][so_far]") {
+    // A station with u = 1 and placement = 2 mGal: two set-ups in its first stay, three in its second.
+    constexpr double kStation_mgal = 1.0, kPlacement_mgal = 2.0, kCount = 5.0;
+    GravitySoFar so_far;
+    so_far.read.emplace();
+    so_far.result.emplace();
+    for (const char* const key : {"A", "A", "B", "B", "B"}) {
+        model::CorrectedRow row;
+        row.row.site = "No.6";
+        row.row.key = key;
+        row.row.occupation = *key == 'A' ? 1 : 2;
+        row.corrected = MilliGal(979800.0);
+        row.u_corrected = MilliGal(
+            std::hypot(kStation_mgal, kPlacement_mgal * std::sqrt(1.0 - 1.0 / kCount)));
+        so_far.result->rows.push_back(row);
+    }
+    model::StationValue& station = so_far.result->stations.emplace_back();
+    station.site = "No.6";
+    station.row_count = static_cast<std::size_t>(kCount);
+    station.u_left_out = MilliGal(kStation_mgal);
+    const auto u = [&](std::size_t stay) {
+        return to_json(so_far).at("stays").at(stay).at("u_mgal").get<double>();
+    };
+    for (const auto& [stay, set_ups] : {std::pair<std::size_t, double>(0, 2.0), {1, 3.0}})
+        CHECK(u(stay) ==
+              Approx(std::hypot(kStation_mgal,
+                                kPlacement_mgal * std::sqrt(1.0 / set_ups - 1.0 / kCount))));
+    so_far.result->rows.erase(so_far.result->rows.begin(), so_far.result->rows.begin() + 2);
+    station.row_count = 3;
+    CHECK(u(0) == Approx(kStation_mgal));
 }
 
 }  // namespace
