@@ -66,7 +66,7 @@ TEST_CASE("a response with the square of the temperature is found", "[day][goodn
 
 TEST_CASE("set-ups that are far off are found", "[day][goodness]") {
     const auto tests = tests_of(with_effect(3, [](const DayBin& bin) {
-        return bin.set_up == 4 ? 14.0 : bin.set_up == 10 ? -17.0 : 0.0;
+        return bin.set_up == 4 ? 14.0 : bin.set_up == 7 ? 15.0 : bin.set_up == 10 ? -17.0 : 0.0;
     }));
     CHECK(tests.at(2).misfit == Misfit::tails);
     CHECK(tests.at(2).is_misfit());
