@@ -1,6 +1,5 @@
 #include "corrector/result/paper_report.hpp"
 
-#include <cmath>
 #include <optional>
 
 #include "corrector/result/columns.hpp"
@@ -12,27 +11,9 @@ namespace {
 
 constexpr int kDecimals = 3;  // as printed
 
-std::optional<MilliGal> error1_of(const model::CorrectedRow& row) {
-    const auto& residual = row.as<model::PaperRow>()->residual1;
+/// Returns reference - corrected.
+std::optional<MilliGal> error_of(const std::optional<MilliGal>& residual) {
     return residual ? std::optional(-*residual) : std::nullopt;
-}
-
-std::optional<MilliGal> error2_of(const model::CorrectedRow& row) {
-    return row.residual ? std::optional(-*row.residual) : std::nullopt;
-}
-
-/// Returns the rms of an error over the readings in the fit: divisor n, as printed.
-std::string rms_of(const model::SurveyCorrection& result,
-                   std::optional<MilliGal> (*error_of)(const model::CorrectedRow&)) {
-    double sum = 0.0;
-    std::size_t count = 0;
-    for (const model::CorrectedRow& row : result.rows) {
-        const auto error = error_of(row);
-        if (!row.is_used || !error) continue;
-        sum += error->value() * error->value();
-        ++count;
-    }
-    return count == 0 ? "-" : text::fixed(std::sqrt(sum / static_cast<double>(count)), kDecimals);
 }
 
 }  // namespace
@@ -52,10 +33,12 @@ Table paper_table(const model::SurveyCorrection& result) {
     };
     add("corrected1_mgal", text::marked("Corrected (1)"),
         [](const Row& row) { return row.as<model::PaperRow>()->corrected1; });
-    add("error1_mgal", text::marked("Error (1)"), error1_of);
+    add("error1_mgal", text::marked("Error (1)"),
+        [](const Row& row) { return error_of(row.as<model::PaperRow>()->residual1); });
     add("corrected2_mgal", text::marked("Corrected (2)"),
         [](const Row& row) { return row.corrected; });
-    add("error2_mgal", text::marked("Error (2)"), error2_of);
+    add("error2_mgal", text::marked("Error (2)"),
+        [](const Row& row) { return error_of(row.residual); });
     const auto used = with_keys(occupation_columns(result), {"used"});
     columns.insert(columns.end(), used.begin(), used.end());
     return table_of(with_decimals(columns, kDecimals), result.rows);
@@ -64,7 +47,8 @@ Table paper_table(const model::SurveyCorrection& result) {
 std::string paper_errors(const model::SurveyCorrection& result) {
     return text::tr(
         "RMS of the readings in the fit (in sample): Error (1) {} mGal, Error (2) {} mGal.",
-        rms_of(result, error1_of), rms_of(result, error2_of));
+        text::fixed_or(result.score.rms_before_drift_mgal, kDecimals, "-"),
+        text::fixed_or(result.score.rms_mgal, kDecimals, "-"));
 }
 
 }  // namespace a351::corrector::result
