@@ -27,15 +27,6 @@ Closure close_pair(const std::vector<model::CorrectedRow>& rows, std::size_t ear
     return pair;
 }
 
-MilliGal rms_of(const std::vector<Closure>& closures, MilliGal Closure::*difference) {
-    double sum = 0.0;
-    for (const Closure& pair : closures) {
-        const double value = (pair.*difference).value();
-        sum += value * value;
-    }
-    return MilliGal(std::sqrt(sum / static_cast<double>(closures.size())));
-}
-
 }  // namespace
 
 std::vector<Closure> close_stations(const model::SurveyCorrection& result) {
@@ -52,12 +43,13 @@ std::vector<Closure> close_stations(const model::SurveyCorrection& result) {
     return closures;
 }
 
-std::optional<ClosureRms> rms_of(const std::vector<Closure>& closures) {
-    if (closures.empty()) return std::nullopt;
-    return ClosureRms{rms_of(closures, &Closure::before), rms_of(closures, &Closure::after_tide),
-                      rms_of(closures, &Closure::after_temperature),
-                      rms_of(closures, &Closure::after_rate),
-                      rms_of(closures, &Closure::after_all)};
+MilliGal rms_of(const std::vector<Closure>& closures, MilliGal Closure::*difference) {
+    double sum = 0.0;
+    for (const Closure& pair : closures) {
+        const double value = (pair.*difference).value();
+        sum += value * value;
+    }
+    return MilliGal(std::sqrt(sum / static_cast<double>(closures.size())));
 }
 
 }  // namespace a351::corrector::judgement

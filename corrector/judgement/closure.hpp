@@ -7,7 +7,7 @@
 /// it each correction removes:
 ///
 ///     const std::vector<Closure> closures = close_stations(result);
-///     if (const auto rms = rms_of(closures)) compare(rms->before, rms->after_rate);
+///     compare(rms_of(closures, &Closure::before), rms_of(closures, &Closure::after_rate));
 ///
 /// The coefficients were fitted to the same readings, so the last differences are in sample.
 
@@ -44,14 +44,9 @@ struct Closure {
 /// @param result  rows in strictly ascending time.
 [[nodiscard]] std::vector<Closure> close_stations(const model::SurveyCorrection& result);
 
-/// Root mean squares of the differences after every step, about 0; the divisor is the number of
-/// pairs.
-struct ClosureRms {
-    MilliGal before, after_tide, after_temperature, after_rate, after_all;
-};
-
-/// Returns the root mean squares over all pairs; std::nullopt without a pair.  Pairs of one station
-/// share readings, so a station that was read often has a large weight.
-[[nodiscard]] std::optional<ClosureRms> rms_of(const std::vector<Closure>& closures);
+/// Returns the root mean square of a difference over all pairs, about 0; the divisor is the number of
+/// pairs.  Pairs of one station share readings, so a station that was read often has a large weight.
+/// @param closures  at least one.
+[[nodiscard]] MilliGal rms_of(const std::vector<Closure>& closures, MilliGal Closure::*difference);
 
 }  // namespace a351::corrector::judgement

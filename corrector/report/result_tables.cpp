@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -203,9 +204,6 @@ void add_side_by_side(pugi::xml_node parent, const model::SurveyCorrection& resu
 
 void add_closures(pugi::xml_node parent, const model::SurveyCorrection& result) {
     const std::vector<judgement::Closure> closures = judgement::close_stations(result);
-    const auto number = [decimals = result::decimals_of(result)](MilliGal value) {
-        return text::fixed(value.value(), decimals);
-    };
     add(parent, "h3", tr("Repeated stations"));
     if (closures.empty()) {
         add(parent, "p",
@@ -213,18 +211,23 @@ void add_closures(pugi::xml_node parent, const model::SurveyCorrection& result) 
                "the references."));
         return;
     }
+    using judgement::Closure;
+    constexpr std::array kSteps{&Closure::before, &Closure::after_tide, &Closure::after_temperature,
+                                &Closure::after_rate, &Closure::after_all};
+    const auto number = [decimals = result::decimals_of(result)](MilliGal value) {
+        return text::fixed(value.value(), decimals);
+    };
     std::vector<HtmlCells> rows;
-    for (const judgement::Closure& pair : closures) {
-        rows.push_back({judgement::reading_name(result.rows, pair.earlier),
-                        judgement::reading_name(result.rows, pair.later),
-                        text::fixed(pair.hours, 2), number(pair.before), number(pair.after_tide),
-                        number(pair.after_temperature), number(pair.after_rate),
-                        number(pair.after_all), text::fixed_or(pair.drift_mgal_per_h, 1, "-")});
+    for (const Closure& pair : closures) {
+        HtmlCells& cells = rows.emplace_back(
+            HtmlCells{judgement::reading_name(result.rows, pair.earlier),
+                      judgement::reading_name(result.rows, pair.later), text::fixed(pair.hours, 2)});
+        for (const auto step : kSteps) cells.push_back(number(pair.*step));
+        cells.push_back(text::fixed_or(pair.drift_mgal_per_h, 1, "-"));
     }
-    const judgement::ClosureRms rms = judgement::rms_of(closures).value();
-    rows.push_back({tr("RMS of {}", closures.size()), "", "", number(rms.before),
-                    number(rms.after_tide), number(rms.after_temperature), number(rms.after_rate),
-                    number(rms.after_all), ""});
+    HtmlCells& last = rows.emplace_back(HtmlCells{tr("RMS of {}", closures.size()), "", ""});
+    for (const auto step : kSteps) last.push_back(number(judgement::rms_of(closures, step)));
+    last.emplace_back();
     add_table(parent,
               tr("Later minus earlier reading of one station, in mGal. Drift: the drift that this "
                  "pair alone would mean, the difference after rate divided by the time between the "
