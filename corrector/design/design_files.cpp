@@ -4,42 +4,26 @@
 
 #include <nlohmann/json.hpp>
 
-#include "corrector/result/column.hpp"
+#include "corrector/result/columns.hpp"
 #include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector::design {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using result::Cell;
 using result::Column;
 using result::of;
 
-Column<ExpectedStation> part_column(std::string_view key, std::string_view heading,
-                                    whole_day::ErrorSource source) {
-    return {key,
-            [source](const ExpectedStation& station) -> Cell {
-                return station.parts_mgal.at(static_cast<std::size_t>(source));
-            },
-            {heading, 2}};
-}
-
 std::vector<Column<ExpectedStation>> station_columns() {
-    using whole_day::ErrorSource;
-    return {
+    std::vector<Column<ExpectedStation>> columns{
         {"site", of(&ExpectedStation::site), {"Station", 0, 'n'}},
         {"is_known", of(&ExpectedStation::is_known), {"Known", 0, 'l'}},
         {"set_ups", of(&ExpectedStation::set_ups), {"Set-ups"}},
         {"u_mgal", of(&ExpectedStation::u), {"u mGal", 2}},
-        part_column("u_placement_mgal", "Placement", ErrorSource::placement),
-        part_column("u_flicker_mgal", "Flicker", ErrorSource::flicker),
-        part_column("u_white_mgal", "White", ErrorSource::white),
-        part_column("u_levelling_mgal", "Levelling", ErrorSource::levelling),
-        part_column("u_thermal_mgal", "Thermal", ErrorSource::thermal),
-        part_column("u_drift_mgal", "Drift", ErrorSource::drift),
-        part_column("u_datum_mgal", "Datum", ErrorSource::datum),
-        part_column("u_scale_mgal", "Scale", ErrorSource::scale),
     };
+    result::append_contributions(
+        columns, [](const ExpectedStation& station) { return &station.parts_mgal; });
+    return columns;
 }
 
 std::vector<Column<ExpectedDifference>> difference_columns() {

@@ -72,7 +72,7 @@ void set_left_out(StationValue& station, const std::vector<CorrectedRow>& rows,
     station.u_left_out = station.u_gravity;
     if (numbers.size() != 1) return;
     const whole_day::GravityEstimate& gravity = day.without(first)->gravity;
-    station.errors = StationErrors{gravity.parts_mgal};
+    station.parts_mgal = gravity.parts_mgal;
     station.shared = shared_errors(rows, day, gravity, day.number_of(first), is_calibrated);
     station.dof = degrees_of_freedom(gravity, day.without(first)->adjustment->noise_log_errors());
     station.coverage_factor = kCoverageFactor;
@@ -191,8 +191,8 @@ void enlarge_uncertainties(Fit& result, double factor) {
     for (StationValue& station : result.stations) {
         enlarge(station.u_gravity, factor);
         enlarge(station.u_left_out, factor);
-        if (!station.errors) continue;
-        for (double& part : station.errors->parts_mgal) part *= factor;
+        if (!station.parts_mgal) continue;
+        for (double& part : *station.parts_mgal) part *= factor;
         for (double& part : station.shared->unit_mgal) part *= factor;
         for (auto& [site, part] : station.shared->references_mgal) part *= factor;
     }

@@ -19,13 +19,6 @@ namespace a351::corrector::model {
 /// few values.
 inline constexpr double kCoverageFactor = 2.0;
 
-/// Sources of the uncertainty of a station, as only `day` knows them.
-struct StationErrors {
-    /// Contributions to u, mGal, in the order of whole_day::ErrorSource; the sum of their squares is
-    /// u^2.
-    std::array<double, whole_day::kErrorSources> parts_mgal{};
-};
-
 /// Errors that a station of one day has in common with stations of other days, as only `day` knows
 /// them.
 struct SharedErrors {
@@ -69,7 +62,9 @@ struct StationValue {
     /// without u_gravity.  `network`: degrees of freedom of the adjustment, and 2, because u is a
     /// priori; absent if the global test fails.
     std::optional<double> dof, coverage_factor;
-    std::optional<StationErrors> errors;  ///< `day` only.
+    /// Contributions to u_gravity, mGal, in the order of whole_day::ErrorSource; the sum of their squares
+    /// is u^2.  `day` only.
+    std::optional<std::array<double, whole_day::kErrorSources>> parts_mgal;
     /// Errors of left_out; for the only station that is held, those of its reference.  `day` only.
     std::optional<SharedErrors> shared;
     /// Present if they are asked for, and latitude and altitude are known.

@@ -6,7 +6,6 @@
 #include "corrector/judgement/reading_grade.hpp"
 #include "corrector/model/calibration_use.hpp"
 #include "protocol/events/face.hpp"
-#include "protocol/text/catalogue.hpp"
 
 namespace a351::corrector::result {
 namespace {
@@ -101,18 +100,6 @@ Cell expanded_uncertainty(const model::StationValue& station) {
     if (!station.u_gravity || !station.coverage_factor) return {};
     return station.u_gravity->value() * *station.coverage_factor;
 }
-
-/// Contributions to u, which only the whole-day model gives: key of the column and heading, in the
-/// order of whole_day::ErrorSource.
-constexpr std::array<std::pair<std::string_view, std::string_view>, whole_day::kErrorSources>
-    kContributions{{{"u_placement_mgal", text::marked("Placement")},
-                    {"u_flicker_mgal", text::marked("Flicker")},
-                    {"u_white_mgal", text::marked("White")},
-                    {"u_levelling_mgal", text::marked("Levelling")},
-                    {"u_thermal_mgal", text::marked("Thermal")},
-                    {"u_drift_mgal", text::marked("Drift")},
-                    {"u_datum_mgal", text::marked("Datum")},
-                    {"u_scale_mgal", text::marked("Scale")}}};
 
 Columns columns_of_day() {
     using Day = model::WholeDayRow;
@@ -227,13 +214,9 @@ std::vector<Column<model::StationValue>> station_columns(
         {"k_95", of(&Row::coverage_factor)},
         {"expanded_u_mgal", expanded_uncertainty, {text::marked("U 95 % mGal"), 2}},
     };
-    for (std::size_t k = 0; k < kContributions.size(); ++k) {
-        const auto contribution = [k](const Row& station) {
-            return station.errors ? cell(station.errors->parts_mgal.at(k)) : Cell();
-        };
-        columns.push_back(
-            {kContributions.at(k).first, contribution, {kContributions.at(k).second, 2}});
-    }
+    append_contributions(columns, [](const Row& station) {
+        return station.parts_mgal ? &*station.parts_mgal : nullptr;
+    });
     if (std::ranges::none_of(stations, [](const Row& one) { return one.anomalies.has_value(); }))
         return columns;
     const auto anomaly = [](auto member) { return of(&Row::anomalies, member); };

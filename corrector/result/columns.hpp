@@ -10,11 +10,15 @@
 /// Keys end with their unit: _mgal, _degc, _degc_per_h, _g, _s.  Refer to a column by its key: the
 /// order may change, and further columns may be added.
 
+#include <array>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "corrector/model/corrected_survey.hpp"
 #include "corrector/result/column.hpp"
 #include "corrector/result/table_text.hpp"
+#include "protocol/text/catalogue.hpp"
 
 namespace a351::corrector::result {
 
@@ -31,6 +35,31 @@ namespace a351::corrector::result {
 /// @param result  must outlive the columns and have at least one row.
 [[nodiscard]] std::vector<Column<model::CorrectedRow>> occupation_columns(
     const model::SurveyCorrection& result);
+
+/// Contributions to u, which only the whole-day model gives: key of the column and heading, in the
+/// order of whole_day::ErrorSource.
+inline constexpr std::array<std::pair<std::string_view, std::string_view>, whole_day::kErrorSources>
+    kContributions{{{"u_placement_mgal", text::marked("Placement")},
+                    {"u_flicker_mgal", text::marked("Flicker")},
+                    {"u_white_mgal", text::marked("White")},
+                    {"u_levelling_mgal", text::marked("Levelling")},
+                    {"u_thermal_mgal", text::marked("Thermal")},
+                    {"u_drift_mgal", text::marked("Drift")},
+                    {"u_datum_mgal", text::marked("Datum")},
+                    {"u_scale_mgal", text::marked("Scale")}}};
+
+/// Appends the columns of kContributions.
+/// @param parts_of  returns a pointer to the contributions of a row, mGal; null if there are none.
+template <class Row, class PartsOf>
+void append_contributions(std::vector<Column<Row>>& columns, PartsOf parts_of) {
+    for (std::size_t k = 0; k < kContributions.size(); ++k)
+        columns.push_back({kContributions.at(k).first,
+                           [k, parts_of](const Row& row) {
+                               const auto* const parts_mgal = parts_of(row);
+                               return parts_mgal != nullptr ? cell(parts_mgal->at(k)) : Cell();
+                           },
+                           {kContributions.at(k).second, 2}});
+}
 
 /// Returns the columns of stations.csv.  They are the same for every model; cells that a model does
 /// not give are empty.  The columns of anomalies are present if a station has anomalies.

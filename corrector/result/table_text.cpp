@@ -191,12 +191,11 @@ Table stations_table(const model::SurveyCorrection& result) {
 
 Table budget_table(const model::SurveyCorrection& result) {
     std::vector<model::StationValue> stations = result.stations;
-    std::erase_if(stations, [](const model::StationValue& station) { return !station.errors; });
-    return table_of(with_keys(station_columns(stations),
-                              {"site", "u_placement_mgal", "u_flicker_mgal", "u_white_mgal",
-                               "u_levelling_mgal", "u_thermal_mgal", "u_drift_mgal", "u_datum_mgal",
-                               "u_scale_mgal", "u_gravity_mgal", "expanded_u_mgal"}),
-                    stations);
+    std::erase_if(stations, [](const model::StationValue& station) { return !station.parts_mgal; });
+    std::vector<std::string_view> keys{"site"};
+    for (const auto& [key, heading] : kContributions) keys.push_back(key);
+    keys.insert(keys.end(), {"u_gravity_mgal", "expanded_u_mgal"});
+    return table_of(with_keys(station_columns(stations), keys), stations);
 }
 
 Table models_table(const model::SurveyCorrection& result) {

@@ -232,7 +232,7 @@ TEST_CASE("the uncertainties of a day that the model does not fit are enlarged",
     CHECK(std::abs(*misfit.rows[5].studentised_residual) > kLimit);
     for (const StationValue& station : misfit.stations) {
         double sum = 0.0;
-        for (const double part : station.errors.value().parts_mgal) sum += part * part;
+        for (const double part : station.parts_mgal.value()) sum += part * part;
         CHECK(std::sqrt(sum) == Approx(station.u_gravity->value()).epsilon(1e-9));
     }
     CHECK(misfit.stations[8].u_gravity->value() ==
