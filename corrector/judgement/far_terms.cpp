@@ -13,9 +13,11 @@ namespace {
 /// away, and one that is held moves by a thousandth of one.
 constexpr double kFree = 1e2, kHeld = 1e-3;
 
-adjustment::Priors with_factor(adjustment::Priors priors, const std::vector<model::Coefficient>& terms,
-                          double factor) {
-    for (const model::Coefficient& term : terms) priors.factors[term.name] = factor;
+adjustment::Priors with_factor(adjustment::Priors priors,
+                               const std::vector<model::Coefficient>& terms, double factor,
+                               const auto& is_chosen) {
+    for (const model::Coefficient& term : terms)
+        if (is_chosen(term)) priors.factors[term.name] = factor;
     return priors;
 }
 
@@ -43,25 +45,19 @@ std::vector<model::Coefficient> far_terms(const model::Fit& fit) {
 }
 
 adjustment::Priors freed(adjustment::Priors priors, const std::vector<model::Coefficient>& terms) {
-    std::vector<model::Coefficient> believable;
-    std::ranges::copy_if(
-        terms, std::back_inserter(believable), [](const model::Coefficient& term) {
-            return !term.name.starts_with(adjustment::kScale) ||
-                   std::abs(term.value - 1.0) <= adjustment::kGreatestScaleError;
-        });
-    return with_factor(std::move(priors), believable, kFree);
+    return with_factor(std::move(priors), terms, kFree, [](const model::Coefficient& term) {
+        return !term.name.starts_with(adjustment::kScale) ||
+               std::abs(term.value - 1.0) <= adjustment::kGreatestScaleError;
+    });
 }
 
 bool is_held(const model::Coefficient& term, const adjustment::Priors& given) {
     return term.name.starts_with(adjustment::kScale) || given.find(term.name) != nullptr;
 }
 
-adjustment::Priors held(adjustment::Priors priors, const std::vector<model::Coefficient>& terms) {
-    const adjustment::Priors given = priors;
-    std::vector<model::Coefficient> of_given;
-    std::ranges::copy_if(terms, std::back_inserter(of_given),
-                         [&](const model::Coefficient& term) { return is_held(term, given); });
-    return with_factor(std::move(priors), of_given, kHeld);
+adjustment::Priors held(adjustment::Priors given, const std::vector<model::Coefficient>& terms) {
+    return with_factor(given, terms, kHeld,
+                       [&](const model::Coefficient& term) { return is_held(term, given); });
 }
 
 reading::Finding far_term(const model::Fit& fit, const model::Coefficient& term,

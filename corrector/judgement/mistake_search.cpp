@@ -14,10 +14,21 @@ namespace {
 /// 1983).
 constexpr std::size_t kLookAhead = 2;
 
-std::shared_ptr<const adjustment::Residuals> residuals_of(adjustment::Trials& trials,
-                                                          const std::vector<Mistake>& known,
-                                                          const std::vector<Mistake>& quiet) {
-    return trials.residuals({known.begin(), known.end()}, {quiet.begin(), quiet.end()});
+/// Returns the residuals with the known mistakes put right, at the noise of the survey in which those of
+/// `quiet` are; std::nullopt if the model does not fit that survey.
+std::optional<Trial> trial_of(adjustment::Trials& trials,
+                              const std::vector<SearchedReading>& readings,
+                              const std::vector<Mistake>& known,
+                              const std::vector<Mistake>& quiet) {
+    auto residuals = trials.residuals({known.begin(), known.end()}, {quiet.begin(), quiet.end()});
+    if (!residuals) return std::nullopt;
+    return Trial(std::move(residuals), readings, known);
+}
+
+/// Returns the mistakes and a further one.
+std::vector<Mistake> with(std::vector<Mistake> mistakes, const Mistake& further) {
+    mistakes.push_back(further);
+    return mistakes;
 }
 
 /// Returns the mistake that explains most of the remaining scatter, with its probability.
@@ -30,33 +41,25 @@ std::optional<Mistake> next_mistake(const std::vector<SearchedReading>& readings
                                     const std::vector<Mistake>& known, bool is_known_sure,
                                     double alpha) {
     constexpr std::size_t kTried = 4;
-    auto residuals = residuals_of(trials, known, known);
-    if (!residuals) return std::nullopt;
-    const Trial noisy(std::move(residuals), readings, known);
-    if (!noisy.is_possible() || !(is_known_sure || noisy.allows_trial())) return std::nullopt;
-    const std::vector<Scored> candidates = noisy.best(kTried);
+    const auto noisy = trial_of(trials, readings, known, known);
+    if (!noisy || !noisy->is_possible() || !(is_known_sure || noisy->allows_trial()))
+        return std::nullopt;
+    const std::vector<Scored> candidates = noisy->best(kTried);
     std::vector<std::vector<adjustment::Alternative>> quiets;
     for (const Scored& candidate : candidates)
         quiets.emplace_back(known.begin(), known.end()).push_back(candidate.mistake);
     trials.expect(quiets);
     std::optional<Scored> best;
     for (const Scored& candidate : candidates) {
-        std::vector<Mistake> quiet = known;
-        quiet.push_back(candidate.mistake);
-        residuals = residuals_of(trials, known, quiet);
-        if (!residuals) continue;
-        const Trial trial(std::move(residuals), readings, known);
-        if (!trial.is_possible()) continue;
-        Scored found = trial.best(1).front();
+        const auto trial = trial_of(trials, readings, known, with(known, candidate.mistake));
+        if (!trial || !trial->is_possible()) continue;
+        Scored found = trial->best(1).front();
         if (!best || found.score > best->score) best = std::move(found);
     }
     if (!best) return std::nullopt;
-    std::vector<Mistake> quiet = known;
-    quiet.push_back(best->mistake);
-    residuals = residuals_of(trials, known, quiet);
-    if (!residuals) return std::nullopt;
-    Trial(std::move(residuals), readings, known)
-        .measure(best->mistake, is_known_sure ? alpha : kTrialShare * alpha);
+    const auto trial = trial_of(trials, readings, known, with(known, best->mistake));
+    if (!trial) return std::nullopt;
+    trial->measure(best->mistake, is_known_sure ? alpha : kTrialShare * alpha);
     return best->mistake;
 }
 
@@ -86,11 +89,8 @@ void refine(std::vector<Mistake>& mistakes, const std::vector<SearchedReading>& 
             adjustment::Trials& trials) {
     for (std::size_t k = 0; k < mistakes.size(); ++k) {
         const std::vector<Mistake> others = without(mistakes, k);
-        auto residuals = residuals_of(trials, others, mistakes);
-        if (!residuals) continue;
-        const Trial trial(std::move(residuals), readings, others);
-        if (!trial.is_possible()) continue;
-        mistakes[k] = trial.best(1).front().mistake;
+        const auto trial = trial_of(trials, readings, others, mistakes);
+        if (trial && trial->is_possible()) mistakes[k] = trial->best(1).front().mistake;
     }
 }
 
@@ -102,23 +102,20 @@ bool explain_together(const std::vector<Mistake>& mistakes, std::size_t sure,
                       const std::vector<SearchedReading>& readings, adjustment::Trials& trials) {
     const auto middle = mistakes.begin() + static_cast<std::ptrdiff_t>(sure);
     const std::vector<Mistake> known(mistakes.begin(), middle), further(middle, mistakes.end());
-    auto before = residuals_of(trials, known, mistakes);
-    auto after = residuals_of(trials, mistakes, mistakes);
-    if (!before || !after) return false;
-    return Trial(std::move(before), readings, known)
-               .gain_of(Trial(std::move(after), readings, mistakes), further) > 0.0;
+    const auto before = trial_of(trials, readings, known, mistakes);
+    const auto after = trial_of(trials, readings, mistakes, mistakes);
+    return before && after && before->gain_of(*after, further) > 0.0;
 }
 
 /// Sets probabilities, sizes and uncertainties again, each from the residuals with the others put right.
 void measure_again(std::vector<Mistake>& mistakes, const std::vector<SearchedReading>& readings,
                    adjustment::Trials& trials, double alpha) {
     for (std::size_t k = 0; k < mistakes.size(); ++k) {
-        const std::vector<Mistake> others = without(mistakes, k);
-        auto residuals = residuals_of(trials, others, mistakes);
+        const auto trial = trial_of(trials, readings, without(mistakes, k), mistakes);
         mistakes[k].p = 1.0;
-        if (!residuals) continue;
+        if (!trial) continue;
         Mistake mistake = mistakes[k];
-        Trial(std::move(residuals), readings, others).measure(mistake, level_of(mistake, alpha));
+        trial->measure(mistake, level_of(mistake, alpha));
         mistakes[k].p = mistake.p;
         mistakes[k].size_mgal = mistake.size_mgal;
         mistakes[k].u_mgal = mistake.u_mgal;

@@ -35,12 +35,9 @@ public:
         if (mistake.kind == adjustment::AlternativeKind::step) return {step(mistake)};
         if (mistake.kind == adjustment::AlternativeKind::swap) return swapped_names(mistake);
         if (mistake.kind == adjustment::AlternativeKind::set_up) return {bad_set_up(mistake)};
-        const bool is_one_stay = std::ranges::all_of(mistake.readings, [&](std::size_t i) {
-            return rows_[i].occupation == rows_[mistake.readings.front()].occupation;
-        });
         // At an end of the day a step is as likely as a name.
         const bool is_name_likely =
-            is_one_stay &&
+            is_one_stay(mistake) &&
             (mistake.kind == adjustment::AlternativeKind::station || !step_beside(mistake));
         const auto others = is_name_likely ? read_sites(mistake) : std::vector<Candidate>();
         Finding finding = !others.empty() ? other_name(mistake, others)
@@ -60,10 +57,20 @@ private:
                                      const SurveyRow& row) const {
         Finding finding{.kind = kind, .code = std::move(code)};
         set_stay(finding, row, row.start.value_or(row.time));
+        set_size(finding, mistake);
+        return finding;
+    }
+
+    static void set_size(Finding& finding, const Mistake& mistake) {
         finding.size_mgal = mistake.size_mgal;
         finding.u_mgal = mistake.u_mgal;
         finding.is_headline = mistake.p <= kHeadlineP && !mistake.needed_trial;
-        return finding;
+    }
+
+    [[nodiscard]] bool is_one_stay(const Mistake& mistake) const {
+        return std::ranges::all_of(mistake.readings, [&](std::size_t i) {
+            return rows_[i].occupation == first(mistake).occupation;
+        });
     }
 
     /// Returns "12.3 +- 1.5 mGal too high".
@@ -101,6 +108,12 @@ private:
         return amendment("rename", row, false,
                          fmt::format("to = {}\nreason = {}\n", text::toml_string(to),
                                      text::toml_string(reason)));
+    }
+
+    static std::string exclusion(const SurveyRow& row, bool has_set_up, const Mistake& mistake) {
+        return amendment("exclude", row, has_set_up,
+                         fmt::format("reason = \"off by {} mGal\"\n",
+                                     in_mgal(mistake.size_mgal, mistake.u_mgal)));
     }
 
     /// A site at which a reading may have been made instead of at the one that it names.
@@ -168,9 +181,7 @@ private:
         const std::size_t after = mistake.readings.front();
         Finding finding{.kind = FindingKind::step, .code = "step"};
         finding.time = model::time_before(rows_, after);
-        finding.size_mgal = mistake.size_mgal;
-        finding.u_mgal = mistake.u_mgal;
-        finding.is_headline = mistake.p <= kHeadlineP && !mistake.needed_trial;
+        set_size(finding, mistake);
         finding.text = text::message(
             "between {} and {} the instrument stepped: from then on the readings are {}",
             name_of(rows_[model::reading_before(rows_, after)]), name_of(rows_[after]),
@@ -236,9 +247,7 @@ private:
         finding.size_mgal = -mistake.size_mgal;
         finding.text = text::message("the reference of {} is {}", row.site,
                                      off_by(-mistake.size_mgal, mistake.u_mgal));
-        const bool is_one_stay = std::ranges::all_of(
-            mistake.readings, [&](std::size_t i) { return rows_[i].occupation == row.occupation; });
-        if (is_one_stay) {
+        if (is_one_stay(mistake)) {
             finding.code = "reference_or_reading";
             finding.text += text::message(", or its only stay is bad: look at both");
         }
@@ -255,9 +264,7 @@ private:
         finding.text =
             text::message("{} is {}, unlike the other readings of {}: repeat it", name_of(row),
                           off_by(mistake.size_mgal, mistake.u_mgal), row.site);
-        finding.amendment = amendment("exclude", row, false,
-                                      fmt::format("reason = \"off by {} mGal\"\n",
-                                                  in_mgal(mistake.size_mgal, mistake.u_mgal)));
+        finding.amendment = exclusion(row, false, mistake);
         return finding;
     }
 
@@ -275,9 +282,7 @@ private:
                                     is_same_stay);
         finding.text = text::message("set-up {} of {} is {}, unlike the others: repeat it", number,
                                      name_of(row), off_by(mistake.size_mgal, mistake.u_mgal));
-        finding.amendment = amendment("exclude", row, true,
-                                      fmt::format("reason = \"off by {} mGal\"\n",
-                                                  in_mgal(mistake.size_mgal, mistake.u_mgal)));
+        finding.amendment = exclusion(row, true, mistake);
         return finding;
     }
 
