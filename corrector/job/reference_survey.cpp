@@ -66,8 +66,8 @@ ReferenceNetwork hold_reference_values(const SurveyFile& survey, reading::Occupa
     if (!is_level_known) hold_level_of_sensor(rows, read, origin);
     std::vector<bool> in_use;
     for (const reading::SurveyRow& row : rows) in_use.push_back(!row.is_flagged);
-    const model::NetworkResult adjusted =
-        model::adjust_network(rows, in_use, {}, reference.priors, reference.network);
+    const model::NetworkResult adjusted = model::adjust_network(
+        rows, in_use, {.network = reference.network, .priors = reference.priors});
     if (!adjusted.adjusted)
         throw InputError(fmt::format("{}: {}; allowed: {}", origin, adjusted.refusal.trouble,
                                      adjusted.refusal.allowed));

@@ -29,11 +29,12 @@ bool temperature_varies(const std::vector<reading::SurveyRow>& rows,
 }
 
 adjustment::Design design_of(const std::vector<reading::SurveyRow>& rows,
-                             const std::vector<bool>& in_use, const adjustment::Priors& priors,
-                             const NetworkOptions& options, std::vector<text::Message>& remarks) {
+                             const std::vector<bool>& in_use, const SurveyOptions& options,
+                             std::vector<text::Message>& remarks) {
+    const adjustment::Priors& priors = options.priors;
     adjustment::Design design{std::string(kNetwork), {&adjustment::kConstant}, true, false};
     const std::array kDrift{&adjustment::kTime, &adjustment::kTime2, &adjustment::kTime3};
-    for (int degree = 1; degree <= options.drift_degree; ++degree)
+    for (int degree = 1; degree <= options.network.drift_degree; ++degree)
         design.terms.push_back(kDrift.at(static_cast<std::size_t>(degree) - 1));
     if (temperature_varies(rows, in_use) || priors.find(adjustment::kTemperature.name) != nullptr)
         design.terms.push_back(&adjustment::kTemperature);
@@ -46,7 +47,7 @@ adjustment::Design design_of(const std::vector<reading::SurveyRow>& rows,
                 : text::message("no temperature is given: the readings are taken as corrected for "
                                 "it"));
     if (priors.find(adjustment::kRate.name) != nullptr) design.terms.push_back(&adjustment::kRate);
-    if (options.fits_admittance) design.terms.push_back(&adjustment::kAdmittance);
+    if (options.network.fits_admittance) design.terms.push_back(&adjustment::kAdmittance);
     design.terms.push_back(&adjustment::kScaleTerm);
     return design;
 }
@@ -75,11 +76,11 @@ NetworkPart part_of(const AdjustedSurvey& adjusted) {
 
 /// Returns the adjustment or a refusal; no part.
 NetworkResult solved(const std::vector<reading::SurveyRow>& rows, const std::vector<bool>& in_use,
-                     adjustment::SurveyKnowledge knowledge, const NetworkOptions& options,
-                     adjustment::Cofactor cofactor) {
+                     const SurveyOptions& options, adjustment::Cofactor cofactor) {
     NetworkResult result;
-    adjustment::Design design = design_of(rows, in_use, knowledge.priors, options, result.remarks);
-    SurveyEquations survey(rows, in_use, std::move(design), std::move(knowledge));
+    SurveyEquations survey(
+        rows, in_use, design_of(rows, in_use, options, result.remarks),
+        {options.datum, options.priors, options.steps, MilliGal(options.network.datum_sd_mgal)});
     if (auto refusal = refusal_of(survey)) {
         result.refusal = std::move(*refusal);
         return result;
@@ -97,12 +98,6 @@ NetworkResult solved(const std::vector<reading::SurveyRow>& rows, const std::vec
     else
         result.adjusted = std::move(adjusted);
     return result;
-}
-
-NetworkResult adjust(const SurveyProblem& problem, const RowChoice& choice) {
-    const SurveyOptions& options = problem.options;
-    return adjust_network(problem.rows, choice.accepted, options.datum, options.priors,
-                          options.network, options.steps);
 }
 
 Score score_of(const NetworkResult& network, double reading_sd_mgal) {
@@ -154,7 +149,7 @@ void leave_out_untied(Fit& result, const AdjustedSurvey& adjusted) {
 }
 
 FitResult fit_network(const SurveyProblem& problem, const RowChoice& choice) {
-    NetworkResult network = adjust(problem, choice);
+    NetworkResult network = adjust_network(problem.rows, choice.accepted, problem.options);
     if (!network.adjusted) return std::move(network.refusal);
     Fit result = fit_of(*network.adjusted, problem, choice);
     result.score = score_of(network, problem.options.priors.reading_sd_mgal);
@@ -173,17 +168,14 @@ FitResult fit_network(const SurveyProblem& problem, const RowChoice& choice) {
 }
 
 Score score_network(const SurveyProblem& problem, const RowChoice& choice) {
-    return score_of(adjust(problem, choice), problem.options.priors.reading_sd_mgal);
+    return score_of(adjust_network(problem.rows, choice.accepted, problem.options),
+                    problem.options.priors.reading_sd_mgal);
 }
 
 /// Returns the adjustment without its Q.
 std::optional<AdjustedSurvey> adjusted_network(const SurveyProblem& problem,
                                                const RowChoice& choice) {
-    const SurveyOptions& options = problem.options;
-    return solved(problem.rows, choice.accepted,
-                  {options.datum, options.priors, options.steps,
-                   MilliGal(options.network.datum_sd_mgal)},
-                  options.network, adjustment::Cofactor::left_out)
+    return solved(problem.rows, choice.accepted, problem.options, adjustment::Cofactor::left_out)
         .adjusted;
 }
 
@@ -196,12 +188,8 @@ std::unique_ptr<adjustment::Trials> network_trials(const SurveyProblem& problem,
 }  // namespace
 
 NetworkResult adjust_network(const std::vector<reading::SurveyRow>& rows,
-                             const std::vector<bool>& in_use, const std::vector<std::string>& datum,
-                             const adjustment::Priors& priors, const NetworkOptions& options,
-                             const std::vector<adjustment::Step>& steps) {
-    NetworkResult result =
-        solved(rows, in_use, {datum, priors, steps, MilliGal(options.datum_sd_mgal)}, options,
-               adjustment::Cofactor::computed);
+                             const std::vector<bool>& in_use, const SurveyOptions& options) {
+    NetworkResult result = solved(rows, in_use, options, adjustment::Cofactor::computed);
     if (!result.adjusted) return result;
     result.part = part_of(*result.adjusted);
     add_remarks(result);

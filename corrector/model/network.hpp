@@ -9,15 +9,13 @@
 /// Use it to find many unknown stations from repeated readings and a few known ones.  A station
 /// read once gets a value, but no error of its reading can be found.
 ///
-///     const NetworkResult result = adjust_network(rows, in_use, {"No.0"}, priors, options);
+///     const NetworkResult result = adjust_network(rows, in_use, {.datum = {"No.0"}});
 ///     if (!result.adjusted) return result.refusal.trouble;
 ///     result.adjusted->gravity(0);     // of result.adjusted->survey.stations()[0]
 ///
 /// All functions are pure and deterministic.  Methods: corrector/methods.md, "Networks".
 
 #include <optional>
-#include <string>
-#include <string_view>
 #include <vector>
 
 #include "corrector/adjustment/survey_equations.hpp"
@@ -47,16 +45,13 @@ struct NetworkResult {
 /// 1e-8 mGal/degC.  The redundancies of all rows add up to dof.
 /// @param rows     (n) in ascending time, at least one; finite; kept by reference.
 /// @param in_use   (n); a row in use needs no reference.
-/// @param datum    names of the stations to hold; empty: all that have a reference.  A name without
-///                 a reading in use has no effect.
+/// @param options  datum, priors, steps and network.  A name of the datum without a reading in use has
+///                 no effect.
 /// @return a refusal if no reading is in use, if no station is held, if a listed station has no
 ///         reference, if stations have no connection with a datum, or if the readings do not
 ///         determine an unknown.
 [[nodiscard]] NetworkResult adjust_network(const std::vector<reading::SurveyRow>& rows,
                                            const std::vector<bool>& in_use,
-                                           const std::vector<std::string>& datum,
-                                           const adjustment::Priors& priors,
-                                           const NetworkOptions& options,
-                                           const std::vector<adjustment::Step>& steps = {});
+                                           const SurveyOptions& options);
 
 }  // namespace a351::corrector::model

@@ -32,19 +32,19 @@ struct NetworkOptions {
 /// correct_survey() checks `model`, `base` and `datum`.  The other members are not checked.
 struct SurveyOptions {
     std::string model = "auto";  ///< One of model_names().
-    std::string base;            ///< Station of the drift step; empty: that of the first row.
+    std::string base = {};       ///< Station of the drift step; empty: that of the first row.
     /// Stations whose reference is held; empty: all that have one.
-    std::vector<std::string> datum;
-    std::vector<adjustment::Step> steps;  ///< In order of time; `paper` ignores them.
+    std::vector<std::string> datum = {};
+    std::vector<adjustment::Step> steps = {};  ///< In order of time; `paper` ignores them.
     /// True: flagged rows are not in the fit.  Excluded rows never are.
     bool use_flags = true;
-    NetworkOptions network;  ///< Options of `network`.
+    NetworkOptions network = {};  ///< Options of `network`.
     std::uint64_t seed = 1;  ///< Seed of the bootstrap over stations.
     /// Priors of the linear models and the network; `paper` uses none, and `day` refuses them.
-    adjustment::Priors priors;
+    adjustment::Priors priors = {};
     /// Calibration of the unit.  correct_survey() uses it only as prior of `day`; for other models
     /// call correct_with_calibration().
-    std::optional<unit::Calibration> calibration;
+    std::optional<unit::Calibration> calibration = {};
 };
 
 }  // namespace a351::corrector::model

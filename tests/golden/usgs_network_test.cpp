@@ -84,7 +84,8 @@ HoldOut value_of(const std::vector<reading::SurveyRow>& rows, const std::string&
                  const std::vector<std::string>& datum, const adjustment::Priors& priors,
                  const model::NetworkOptions& options, double gravity_mgal) {
     const auto network =
-        model::adjust_network(rows, std::vector<bool>(rows.size(), true), datum, priors, options)
+        model::adjust_network(rows, std::vector<bool>(rows.size(), true),
+                              {.datum = datum, .network = options, .priors = priors})
             .adjusted.value();
     const auto& stations = network.survey.stations();
     const auto at = static_cast<std::size_t>(

@@ -61,8 +61,8 @@ Outcome outcome_of(const NetworkResult& result) {
 
 Outcome adjust(const std::vector<SurveyRow>& rows, const NetworkOptions& options = {},
                const adjustment::Priors& priors = {}) {
-    return outcome_of(
-        adjust_network(rows, std::vector<bool>(rows.size(), true), {}, priors, options));
+    return outcome_of(adjust_network(rows, std::vector<bool>(rows.size(), true),
+                                     {.network = options, .priors = priors}));
 }
 
 double value_of(const Network& network, const std::string& term) {
@@ -275,9 +275,9 @@ TEST_CASE("a network without a datum is refused with the reason", "[survey][netw
 TEST_CASE("a datum station without reference gravity is refused by name", "[survey][network]") {
     const auto rows = day_with_quadratic_drift(0.0);
     const std::vector<bool> in_use(rows.size(), true);
-    CHECK_THAT(message_of(outcome_of(adjust_network(rows, in_use, {"B", "S2"}, {}, {}))),
+    CHECK_THAT(message_of(outcome_of(adjust_network(rows, in_use, {.datum = {"B", "S2"}}))),
                StartsWith("datum = S2: no reference gravity"));
-    CHECK(adjust_network(rows, in_use, {"B"}, {}, {}).adjusted.has_value());
+    CHECK(adjust_network(rows, in_use, {.datum = {"B"}}).adjusted.has_value());
 }
 
 TEST_CASE("two groups of stations without a connection are refused by name", "[survey][network]") {
