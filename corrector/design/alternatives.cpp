@@ -30,10 +30,6 @@ const text::Site& site_of(const std::vector<text::Site>& sites, const Visit& vis
     return *text::find_site(sites, visit.site);
 }
 
-bool is_known(const std::vector<text::Site>& sites, const Visit& visit) {
-    return site_of(sites, visit).gravity.has_value();
-}
-
 /// Delays a visit and all later ones.
 void delay(Plan& plan, std::size_t first, double minutes) {
     // Whole seconds, so that the changed plan reads well.
@@ -51,22 +47,15 @@ Plan with_visits(Plan plan, const std::function<void(Visit&)>& change) {
     return plan;
 }
 
-double median_drive_min(const Plan& plan) {
-    std::vector<double> drives;
-    for (std::size_t i = 1; i < plan.size(); ++i)
-        drives.push_back(seconds_between(plan[i - 1].end(), plan[i].start) / kSecondsPerMinute);
-    return signal::median(std::move(drives));
-}
-
 /// Adds a visit after another one.
 Plan with_visit_after(Plan plan, std::size_t after, const std::string& site) {
-    const double drive_min = median_drive_min(plan);
+    const double drive_s = signal::median(drives_s(plan));
     Visit visit = plan[after];
     visit.site = site;
-    visit.start = visit.end() + from_seconds(kSecondsPerMinute * drive_min);
+    visit.start = visit.end() + from_seconds(drive_s);
     const auto place = plan.begin() + static_cast<std::ptrdiff_t>(after) + 1;
     plan.insert(place, visit);
-    delay(plan, after + 2, drive_min + visit.minutes());
+    delay(plan, after + 2, drive_s / kSecondsPerMinute + visit.minutes());
     return plan;
 }
 
@@ -91,19 +80,11 @@ Plan with_way_back(Plan plan) {
     return plan;
 }
 
-/// Returns the distance of two sites, degrees of latitude; that of the longitudes is shortened.
-double distance_deg(const text::Site& a, const text::Site& b) {
-    const double north = (a.latitude - b.latitude).value();
-    const double east = std::remainder((a.longitude - b.longitude).value(), 360.0) *
-                        std::cos(a.latitude.value() * kRadPerDeg);
-    return std::hypot(north, east);
-}
-
 /// A known station that is not visited, and the visit nearest to it.
 struct NewStation {
     std::string site;
     std::size_t after = 0;
-    double distance_deg = 0.0;
+    Metres distance;
 };
 
 std::vector<NewStation> nearest_new_stations(const Plan& plan,
@@ -112,14 +93,15 @@ std::vector<NewStation> nearest_new_stations(const Plan& plan,
     for (const text::Site& site : sites) {
         if (!site.gravity || !site.is_placed) continue;
         if (std::ranges::find(plan, site.name, &Visit::site) != plan.end()) continue;
-        NewStation station{site.name, 0, HUGE_VAL};
+        NewStation station{site.name, 0, Metres(HUGE_VAL)};
         for (std::size_t i = 0; i < plan.size(); ++i) {
-            const double distance = distance_deg(site, site_of(sites, plan[i]));
-            if (distance < station.distance_deg) station = {site.name, i, distance};
+            const text::Site& visited = site_of(sites, plan[i]);
+            const Metres distance = text::distance(site, visited.latitude, visited.longitude);
+            if (distance < station.distance) station = {site.name, i, distance};
         }
         found.push_back(std::move(station));
     }
-    std::ranges::stable_sort(found, {}, &NewStation::distance_deg);
+    std::ranges::stable_sort(found, {}, &NewStation::distance);
     found.resize(std::min(found.size(), kMostNewStations));
     return found;
 }

@@ -37,13 +37,6 @@ Plan visits_so_far(const std::vector<model::CorrectedRow>& rows) {
     return plan;
 }
 
-double median_drive_s(const Plan& plan) {
-    std::vector<double> drives_s;
-    for (std::size_t i = 1; i < plan.size(); ++i)
-        drives_s.push_back(seconds_between(plan[i - 1].end(), plan[i].start));
-    return drives_s.empty() ? kUsualDrive_s : signal::median(std::move(drives_s));
-}
-
 /// Returns the expected uncertainty of a station.
 double expected_mgal(const Plan& plan, const std::vector<text::Site>& sites,
                      const PlannedUnit& unit, const std::string& site) {
@@ -70,9 +63,8 @@ std::optional<MilliGal> u_in_the_evening(const model::SurveyCorrection& result,
     const auto is_listed = [&](const Visit& visit) {
         return text::find_site(sites, visit.site) != nullptr;
     };
-    const auto base = std::ranges::find_if(plan, [&](const Visit& visit) {
-        return is_listed(visit) && text::find_site(sites, visit.site)->gravity.has_value();
-    });
+    const auto base = std::ranges::find_if(
+        plan, [&](const Visit& visit) { return is_listed(visit) && is_known(sites, visit); });
     if (base == plan.end() || !std::ranges::all_of(plan, is_listed) || plan.back().site != site)
         return std::nullopt;
     PlannedUnit unit = usual_unit();
@@ -81,7 +73,9 @@ std::optional<MilliGal> u_in_the_evening(const model::SurveyCorrection& result,
     const double now_mgal = expected_mgal(plan, sites, unit, site);
     Visit back = plan.back();
     back.site = base->site;
-    back.start = back.end() + from_seconds(median_drive_s(plan));
+    std::vector<double> drives = drives_s(plan);
+    back.start = back.end() +
+                 from_seconds(drives.empty() ? kUsualDrive_s : signal::median(std::move(drives)));
     plan.push_back(back);
     return expected_mgal(plan, sites, unit, site) / now_mgal * *station->u_gravity;
 }

@@ -69,7 +69,7 @@ ExpectedErrors expected_errors(const Plan& plan, const std::vector<text::Site>& 
             const std::size_t number = errors.stations.size();
             station = errors.stations.emplace(station);
             station->site = visit.site;
-            station->is_known = text::find_site(sites, visit.site)->gravity.has_value();
+            station->is_known = is_known(sites, visit);
             station->u =
                 MilliGal(root_mean(all, [&](const Squares& s) { return s.stations[number]; }));
             for (std::size_t k = 0; k < station->parts_mgal.size(); ++k)

@@ -2,8 +2,7 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
-#include <cmath>
+#include <functional>
 
 #include "protocol/core/input_error.hpp"
 #include "protocol/core/units.hpp"
@@ -56,6 +55,17 @@ void require_order(const text::CsvTable& table, std::size_t row, const Visit& be
 
 }  // namespace
 
+bool is_known(const std::vector<text::Site>& sites, const Visit& visit) {
+    return text::find_site(sites, visit.site)->gravity.has_value();
+}
+
+std::vector<double> drives_s(const Plan& plan) {
+    std::vector<double> drives;
+    for (std::size_t i = 1; i < plan.size(); ++i)
+        drives.push_back(seconds_between(plan[i - 1].end(), plan[i].start));
+    return drives;
+}
+
 Plan read_plan(const std::filesystem::path& file, const std::vector<text::Site>& sites) {
     const text::CsvTable table = text::read_csv(file);
     Plan plan;
@@ -64,15 +74,13 @@ Plan read_plan(const std::filesystem::path& file, const std::vector<text::Site>&
         if (!plan.empty()) require_order(table, row, plan.back(), visit);
         plan.push_back(visit);
     }
-    const auto is_known = [&sites](const Visit& visit) {
-        return text::find_site(sites, visit.site)->gravity.has_value();
-    };
-    if (std::ranges::none_of(plan, is_known))
+    const auto has_gravity = std::bind_front(is_known, std::cref(sites));
+    if (std::ranges::none_of(plan, has_gravity))
         throw InputError(
             fmt::format("{}: no site with a gravity_mgal in the table of sites is visited; "
                         "allowed: at least one",
                         file.string()));
-    if (std::ranges::all_of(plan, is_known))
+    if (std::ranges::all_of(plan, has_gravity))
         throw InputError(fmt::format(
             "{}: every site that is visited has a gravity_mgal in the table of sites; allowed: at "
             "least one without, whose uncertainty is computed",

@@ -53,6 +53,12 @@ struct Visit {
 /// longer than kLongestPause_h, and a site with gravity and one without are visited.
 using Plan = std::vector<Visit>;
 
+/// Returns true if the gravity of the visit's site, which is in the table, is known.
+[[nodiscard]] bool is_known(const std::vector<text::Site>& sites, const Visit& visit);
+
+/// Returns the times between the visits, s.
+[[nodiscard]] std::vector<double> drives_s(const Plan& plan);
+
 /// Reads a plan.
 /// @param sites  table of the sites; gravity decides which stations are known.
 /// @throws InputError  a cell is not as design-format.md says, a visit begins before the end of the
