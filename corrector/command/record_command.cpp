@@ -19,6 +19,7 @@
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/input_file.hpp"
 #include "protocol/text/message.hpp"
+#include "protocol/text/or_null.hpp"
 #include "protocol/text/progress_bar.hpp"
 #include "protocol/text/write_together.hpp"
 
@@ -133,8 +134,7 @@ void add_norm_settings(nlohmann::ordered_json& settings, const RecordCommandOpti
                        const long_record::RecordResult& result) {
     settings["cycle_s"] = result.options.cycle_s;
     settings["shift_s"] = result.options.shift_s;
-    settings["mode"] = result.options.mode ? nlohmann::ordered_json(*result.options.mode)
-                                           : nlohmann::ordered_json(nullptr);
+    settings["mode"] = text::or_null(result.options.mode);
     settings["ensemble"] = result.options.ensemble_size;
     settings["noise_ratio"] = eemd::Options{}.noise_ratio;
     settings["seed"] = result.options.seed;

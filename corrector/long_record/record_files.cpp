@@ -8,6 +8,7 @@
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/csv.hpp"
 #include "protocol/text/input_file.hpp"
+#include "protocol/text/or_null.hpp"
 #include "protocol/text/write_together.hpp"
 
 namespace a351::corrector::long_record {
@@ -58,12 +59,10 @@ Json mode_json(const std::optional<ChosenMode>& mode) {
 Json components_json(const eemd::Result& result, double step_s) {
     Json list = Json::array();
     const auto add = [&](const std::string& name, const eemd::Component& component) {
-        list.push_back(
-            {{"component", name},
-             {"period_s", component.mean_period_samples * step_s},
-             {"energy_share", component.energy_share},
-             {"standard_error",
-              component.standard_error ? Json(*component.standard_error) : Json(nullptr)}});
+        list.push_back({{"component", name},
+                        {"period_s", component.mean_period_samples * step_s},
+                        {"energy_share", component.energy_share},
+                        {"standard_error", text::or_null(component.standard_error)}});
     };
     for (std::size_t k = 0; k < result.modes.size(); ++k)
         add(fmt::format("imf{}", k + 1), result.modes[k]);
@@ -97,17 +96,13 @@ Json two_paths_json(const TwoPathFit& fit) {
     return json;
 }
 
-Json serial_json(const RecordSegment& segment) {
-    return segment.serial_number.empty() ? Json(nullptr) : Json(segment.serial_number);
-}
-
 Json segments_json(const RecordResult& result) {
     Json list = Json::array();
     for (std::size_t k = 0; k < result.parts.segments.size(); ++k) {
         const RecordSegment& segment = result.parts.segments[k];
         list.push_back({{"start_utc", to_rfc3339(segment.start, 3)},
                         {"end_utc", to_rfc3339(segment.end, 3)},
-                        {"serial_number", serial_json(segment)},
+                        {"serial_number", text::or_null(segment.serial_number)},
                         {"samples", segment.size()},
                         {"begins_with", segment.begins_with.english()},
                         {"restart", segment.is_restart},
@@ -235,7 +230,7 @@ std::string record_json(const RecordResult& result, const Json& settings) {
     json["version"] = A351_VERSION;
     json["settings"] = settings;
     json["inputs"] = result.record.inputs;
-    json["serial_number"] = serial_json(result.segment());
+    json["serial_number"] = text::or_null(result.segment().serial_number);
     json["raw_rate_hz"] = result.record.raw_rate_hz;
     json["step_s"] = result.record.step_s;
     json["tide_removed"] = result.record.is_tide_removed;
