@@ -32,7 +32,6 @@
 /// A. Bjorck, Linear Algebra Appl. 88/89, 31-48, 1987 (refinement of the normal equations).
 
 #include <Eigen/Core>
-#include <memory>
 #include <optional>
 #include <vector>
 

@@ -1,7 +1,5 @@
 #include "corrector/adjustment/helmert_block.hpp"
 
-#include <cmath>
-
 #include "protocol/linear_algebra/cholesky.hpp"
 
 namespace a351::corrector::adjustment {

@@ -10,7 +10,6 @@
 /// Options, CSV, JSON, report and priors read the declarations.  To add a term, declare it here and
 /// name it in a model's list.
 
-#include <array>
 #include <span>
 #include <string>
 #include <string_view>

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <optional>
 
 #include "corrector/archive_series/epoch.hpp"
 #include "corrector/archive_series/samples.hpp"

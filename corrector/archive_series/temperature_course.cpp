@@ -1,6 +1,5 @@
 #include "corrector/archive_series/temperature_course.hpp"
 
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <limits>

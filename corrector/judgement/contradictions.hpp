@@ -2,7 +2,6 @@
 /// @file
 /// Contradictions in a survey that is still being made.  The operator can still clear them up.
 
-#include <cstddef>
 #include <string>
 #include <vector>
 

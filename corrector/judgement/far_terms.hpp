@@ -3,7 +3,6 @@
 /// Coefficients that the readings move far from their priors: a prior that is wrong, or a mistake in
 /// the readings that looks like a scale.
 
-#include <string>
 #include <vector>
 
 #include "corrector/model/corrected_survey.hpp"

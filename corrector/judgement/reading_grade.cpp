@@ -1,11 +1,8 @@
 #include "corrector/judgement/reading_grade.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string_view>
 #include <utility>
 
 #include "corrector/judgement/closure.hpp"

@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "corrector/judgement/far_terms.hpp"
 #include "corrector/judgement/mistake_search.hpp"

@@ -1,7 +1,5 @@
 #include "corrector/judgement/survey_remarks.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <optional>
 #include <set>

@@ -1,7 +1,5 @@
 #include "corrector/long_record/apply_calibration.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>

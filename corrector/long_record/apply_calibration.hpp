@@ -13,7 +13,6 @@
 ///
 /// It is not used for a survey: there the calibration is a prior of the whole-day model.
 
-#include <string>
 #include <vector>
 
 #include "corrector/long_record/record_analysis.hpp"

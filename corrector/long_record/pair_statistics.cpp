@@ -1,7 +1,5 @@
 #include "corrector/long_record/pair_statistics.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>

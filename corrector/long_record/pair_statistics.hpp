@@ -11,7 +11,6 @@
 /// that.
 
 #include <span>
-#include <string>
 
 #include "protocol/signal/regression.hpp"
 #include "protocol/text/message.hpp"

@@ -1,7 +1,5 @@
 #include "corrector/long_record/record_analysis.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

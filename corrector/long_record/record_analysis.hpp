@@ -14,7 +14,6 @@
 
 #include <functional>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "corrector/eemd/eemd.hpp"

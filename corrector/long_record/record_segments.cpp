@@ -1,7 +1,5 @@
 #include "corrector/long_record/record_segments.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>

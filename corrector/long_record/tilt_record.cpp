@@ -1,7 +1,5 @@
 #include "corrector/long_record/tilt_record.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <span>

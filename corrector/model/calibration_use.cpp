@@ -1,7 +1,5 @@
 #include "corrector/model/calibration_use.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>

@@ -9,7 +9,6 @@
 #include "corrector/model/adjusted_day.hpp"
 #include "corrector/model/calibration_use.hpp"
 #include "corrector/model/model.hpp"
-#include "protocol/text/message.hpp"
 
 namespace a351::corrector::model {
 namespace {

@@ -11,7 +11,6 @@
 /// Methods: corrector/methods.md, "Linear models".
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "corrector/adjustment/survey_equations.hpp"

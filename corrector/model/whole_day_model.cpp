@@ -1,7 +1,5 @@
 #include "corrector/model/whole_day_model.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>

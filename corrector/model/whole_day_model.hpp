@@ -6,7 +6,6 @@
 /// linear model.  The formula is in day_model.hpp.
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "corrector/model/model.hpp"

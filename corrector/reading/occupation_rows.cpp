@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <optional>
 
 #include "corrector/archive_series/sample_grid.hpp"
 #include "corrector/archive_series/samples.hpp"

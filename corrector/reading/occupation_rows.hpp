@@ -12,7 +12,6 @@
 ///
 /// The same files give the same bits on any number of cores (archive_survey_test.cpp: two runs).
 
-#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>

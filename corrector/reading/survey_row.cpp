@@ -2,10 +2,8 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <string_view>
 
 #include "protocol/core/input_error.hpp"
 

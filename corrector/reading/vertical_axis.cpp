@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <vector>
 
 #include "protocol/core/input_error.hpp"
 #include "protocol/core/sensor_limits.hpp"

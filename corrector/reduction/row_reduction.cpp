@@ -6,7 +6,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "corrector/reduction/air_pressure.hpp"
 #include "corrector/reduction/plate_and_pressure.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/csv.hpp"

@@ -2,7 +2,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "corrector/figure/drawing.hpp"
 #include "corrector/figure/survey_figures.hpp"
 #include "corrector/report/html.hpp"
 #include "corrector/report/result_tables.hpp"

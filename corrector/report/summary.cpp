@@ -1,7 +1,5 @@
 #include "corrector/report/summary.hpp"
 
-#include <fmt/core.h>
-
 #include <cmath>
 #include <sstream>
 

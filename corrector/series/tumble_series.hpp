@@ -20,7 +20,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "corrector/reading/occupation_rows.hpp"
 #include "protocol/unit/calibration.hpp"

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
-#include <optional>
 
 #include "corrector/tide/permanent_tide.hpp"
 #include "corrector/tide/tide_series.hpp"

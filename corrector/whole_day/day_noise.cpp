@@ -1,7 +1,6 @@
 #include "corrector/whole_day/day_noise.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "corrector/whole_day/column_filter.hpp"

@@ -1,8 +1,6 @@
 #include "corrector/whole_day/day_priors.hpp"
 
 #include "protocol/linear_algebra/cholesky.hpp"
-#include "protocol/unit/calibration.hpp"
-#include "protocol/unit/thermal_response.hpp"
 
 namespace a351::corrector::whole_day {
 

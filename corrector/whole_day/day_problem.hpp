@@ -18,7 +18,6 @@
 /// with white noise are one more group; it depends on no number of the search.
 
 #include <Eigen/Core>
-#include <array>
 #include <cstddef>
 #include <memory>
 #include <vector>

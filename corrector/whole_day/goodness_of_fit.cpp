@@ -1,7 +1,6 @@
 #include "corrector/whole_day/goodness_of_fit.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <random>
 
 #include "corrector/whole_day/day_regression.hpp"

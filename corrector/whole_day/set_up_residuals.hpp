@@ -6,7 +6,6 @@
 ///     residuals.direction(Eigen::VectorXd::Unit(n, 3));   // set-up 3 reads 1 mGal too high
 
 #include <Eigen/Core>
-#include <vector>
 
 #include "corrector/adjustment/dense_residuals.hpp"
 #include "corrector/whole_day/day_fit.hpp"
