@@ -56,13 +56,6 @@ TEST_CASE("FLASH_BACKUP reads 1 for 310 ms, and then the settings survive power 
     }
 }
 
-TEST_CASE("without a backup a reset brings the old settings back", "[sim][flash]") {
-    Bench bench;
-    bench.write("W1:85 06");
-    power_cycle(bench);
-    CHECK(bench.read("W1:04") == "0400");
-}
-
 TEST_CASE("a power failure during a backup leaves the flash as it was", "[sim][flash]") {
     Bench bench;
     bench.send({"FE 01", "85 06", "8A 08"});
@@ -107,39 +100,6 @@ TEST_CASE("running self tests and busy bits are not kept in flash", "[sim][flash
     CHECK(bench.read("W1:06") == "000E");
 }
 
-TEST_CASE("with AUTO_START and UART_AUTO in flash the device streams right after its start",
-          "[sim][flash]") {
-    Bench bench;
-    bench.send({"FE 01", "85 06", "86 06", "88 03", "8C 03", "8D C7"});
-    back_up(bench);
-    bench.machine.power_cycle(bench.now);
-    bench.wait(power_on_time(*wire::find_profile("A352AD10")) - 1ns);
-    CHECK_FALSE(bench.machine.is_sampling());
-    bench.wait(1ns);
-    REQUIRE(bench.machine.is_sampling());
-    CHECK(bench.sample(8).size() == 24 * 3 - 1);
-    // The data sheet prescribes this way to end it.
-    bench.send({"FE 00", "83 02", "FE 01", "88 01"});
-    back_up(bench);
-    power_cycle(bench);
-    CHECK_FALSE(bench.machine.is_sampling());
-    // AUTO_START alone does nothing.
-    bench.send({"FE 01", "88 02"});
-    back_up(bench);
-    power_cycle(bench);
-    CHECK_FALSE(bench.machine.is_sampling());
-}
-
-TEST_CASE("MESMOD_STAT follows MESMOD_SEL only after backup and reset", "[sim][flash]") {
-    Bench bench;
-    bench.write("W1:80 14");
-    CHECK(bench.read("W1:0A") == "0000");
-    back_up(bench);
-    CHECK(bench.read("W1:0A") == "0000");
-    power_cycle(bench);
-    CHECK(bench.read("W1:0A") == "1000");
-}
-
 TEST_CASE("a baud rate in flash applies from the next start", "[sim][flash]") {
     Bench bench;
     bench.write("W1:89 03");
@@ -155,28 +115,6 @@ TEST_CASE("an invalid pair of rate and filter in flash is reported after the sta
     back_up(bench);
     power_cycle(bench);
     CHECK(bench.read("W0:06") == "0002");
-}
-
-TEST_CASE("the flash file carries settings and coefficients to the next run", "[sim][flash]") {
-    const auto file = scratch("round-trip");
-    {
-        Bench bench("A352AD10", kIdentity, read_flash_file(file, profile()));
-        bench.machine.on_flash_written([&file](const FlashMemory& memory) {
-            write_flash_file(file, memory);
-            return true;
-        });
-        bench.send({"FE 01", "98 A5", "96 02"});
-        bench.wait(UserFilter::kWriteTime);
-        bench.send({"86 0B", "85 06", "86 06"});
-        back_up(bench);
-    }
-    const FlashMemory kept = read_flash_file(file, profile());
-    CHECK(kept.coefficients[0] == 0xA5);
-    CHECK(kept.coefficients[1] == FlashMemory::kErased);
-    Bench again("A352AD10", kIdentity, kept);
-    CHECK(again.read("W1:04") == "0600");
-    CHECK(again.read("W1:06") == "0006");
-    std::filesystem::remove(file);
 }
 
 TEST_CASE("a new user filter is written to the flash when it is selected", "[sim][flash]") {

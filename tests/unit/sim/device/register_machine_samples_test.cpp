@@ -67,15 +67,6 @@ TEST_CASE("without an axis in BURST_CTRL no frame is sent", "[sim][register_mach
     CHECK(bench.sample(10).empty());
 }
 
-TEST_CASE("a recorder's frame carries flags, temperature, axes, count and checksum",
-          "[sim][register_machine]") {
-    // Words 8E00 0000 09A2 FFFC E388 0009 3A7A 00FF 0624 0050 add up to BD1C modulo 65536.
-    Bench bench;
-    bench.start_logging();
-    CHECK(bench.sample(8) ==
-          "80 8E 00 00 00 09 A2 FF FC E3 88 00 09 3A 7A 00 FF 06 24 00 50 BD 1C 0D");
-}
-
 TEST_CASE("the first frame comes after the transient, with one step in COUNT",
           "[sim][register_machine]") {
     // Suppressed samples of data sheet table 5.3.
@@ -198,17 +189,6 @@ TEST_CASE("new-data flags that are not enabled do not show", "[sim][register_mac
     bench.send({"FE 01", "81 08", "85 06", "86 06", "FE 00", "83 01"});
     bench.sample(Bench::kTransient + 1);
     CHECK(bench.read("W0:06") == "0800");
-}
-
-TEST_CASE("answers in automatic sampling come between frames", "[sim][register_machine]") {
-    Bench bench;
-    bench.start_logging();
-    std::vector<std::byte> stream;
-    for (int i = 0; i < 8; ++i) static_cast<void>(bench.machine.sample(kSample, stream));
-    bench.machine.receive(bytes_of("02 00 0D"), bench.now, stream);
-    static_cast<void>(bench.machine.sample(kSample, stream));
-    REQUIRE(stream.size() == 24 + 4 + 24);
-    CHECK(hex_of(std::span(stream).subspan(24, 4)) == "02 00 00 0D");
 }
 
 TEST_CASE("the delay of a frame is the sum of group delay, internal delay and wire time",

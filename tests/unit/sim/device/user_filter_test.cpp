@@ -40,18 +40,6 @@ TEST_CASE("FIR_UCMD is busy for 7 ms per byte written and 0.5 ms per byte read",
     CHECK(filter.command() == 0);
 }
 
-TEST_CASE("coefficients read back as they were written, and the address increments by itself",
-          "[sim][user_filter]") {
-    Bench bench;
-    upload(bench, "00 01 02 FD");
-    bench.send({"FE 01", "9A 00"});
-    for (const std::string expected : {"0000", "0001", "0002", "00FD", "00FF"}) {
-        bench.send({"FE 01", "96 01"});
-        CHECK(bench.read("W1:18") == expected);
-    }
-    CHECK(bench.read("W1:1A") == "0805");
-}
-
 TEST_CASE("while a byte is being written, new data, addresses and commands are ignored",
           "[sim][user_filter]") {
     Bench bench;
