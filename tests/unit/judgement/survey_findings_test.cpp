@@ -202,7 +202,7 @@ TEST_CASE("a day that the model does not fit is named, with the reading after th
         REQUIRE_FALSE(findings.empty());
         return findings.front();
     };
-    const Finding step = said({Misfit::step, 0.021, 4});
+    const Finding step = said({Misfit::step, 0.014, 4});
     CHECK(step.code == "misfit_step");
     CHECK(step.site == day.rows[4].site);
     CHECK_FALSE(step.is_headline);
@@ -212,7 +212,7 @@ TEST_CASE("a day that the model does not fit is named, with the reading after th
     CHECK(said({Misfit::tails, 0.001, 4}).text.english() ==
           "the model does not fit this day: a few set-ups are much further off than the others, B "
           "(2) most (p = 0.0010)");
-    CHECK(said({Misfit::step, 0.023, 4}).kind != FindingKind::misfit);
+    CHECK(said({Misfit::step, 0.016, 4}).kind != FindingKind::misfit);
     CHECK(said({Misfit::tails, 0.009, 4}).kind != FindingKind::misfit);
 }
 
