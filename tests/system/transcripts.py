@@ -1,6 +1,7 @@
 """Plays conversations from the data sheet and from the manufacturer's loggers against the emulator, byte by byte.
 
-The files are in tests/golden/transcripts; the README there describes their language.
+The files are in tests/golden/transcripts; the README there describes their language.  transcripts_test.cpp plays all of them in the
+program.  Here three prove the terminal: a library of the manufacturer, sampling, and what survives a loss of power; A351_LONG=1: all.
 """
 
 import os
@@ -14,9 +15,10 @@ import termios
 import time
 import tty
 
-from programs import BIN, TOP, Scratch, demand
+from programs import BIN, IS_LONG, TOP, Scratch, demand
 
 FOLDER = TOP / "tests" / "golden" / "transcripts"
+SHORT = ("py_esensorlib.txt", "auto_sampling.txt", "power_cycle.txt")
 ANSWER_S = 5.0  # Timeout for an answer, in s, for a busy machine; the sensor needs microseconds.
 
 
@@ -195,7 +197,8 @@ def converse(file, scratch):
 
 
 def main():
-    files = [pathlib.Path(name) for name in sys.argv[1:]] or sorted(FOLDER.glob("*.txt"))
+    every = sorted(FOLDER.glob("*.txt")) if IS_LONG else [FOLDER / name for name in SHORT]
+    files = [pathlib.Path(name) for name in sys.argv[1:]] or every
     demand(f"there are transcripts in {FOLDER}", files)
     for file in files:
         with Scratch() as scratch:
