@@ -91,7 +91,8 @@ void log_doubt(const survey::Occupations& occupations, spdlog::logger& log) {
 }
 
 /// Reads the configuration again after SIGHUP.
-void hang_up(const config::Config& config, const recorder::ReloadedParts& parts, spdlog::logger& log) {
+void hang_up(const config::Config& config, const recorder::ReloadedParts& parts,
+             spdlog::logger& log) {
     try {
         recorder::reload(config, parts, [&] { log_doubt(parts.occupations, log); });
         log.info(

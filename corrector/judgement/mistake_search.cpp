@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "corrector/judgement/mistake_trial.hpp"
@@ -14,8 +15,8 @@ namespace {
 /// 1983).
 constexpr std::size_t kLookAhead = 2;
 
-/// Returns the residuals with the known mistakes put right, at the noise of the survey in which those of
-/// `quiet` are; std::nullopt if the model does not fit that survey.
+/// Returns the residuals with the known mistakes put right, for the noise of the survey in which the
+/// mistakes of `quiet` are put right; std::nullopt if the model does not fit that survey.
 std::optional<Trial> trial_of(adjustment::Trials& trials,
                               const std::vector<SearchedReading>& readings,
                               const std::vector<Mistake>& known,

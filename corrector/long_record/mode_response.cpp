@@ -1,4 +1,3 @@
-
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>

@@ -67,9 +67,12 @@ std::vector<Stay> stays_of(const std::vector<reading::SurveyRow>& rows,
     return stays;
 }
 
-/// Returns the uncertainty of the mean of n of a station's N set-ups.  Its variance is that of the
-/// station plus placement^2 (1/n - 1/N), and the uncertainty of a single one shows the placement.
-double u_of_mean(double u_set_up, std::size_t n, double u_station, std::size_t count) {
+/// Returns the uncertainty of the mean of n of a station's N set-ups:
+///
+///     u^2 = u_station^2 + s^2 (1/n - 1/N),   u_set_up^2 = u_station^2 + s^2 (1 - 1/N)
+///
+/// with s the part that each set-up has alone: the placement, or the scatter of a linear model.
+double u_of_mean(double u_set_up, double u_station, std::size_t n, std::size_t count) {
     if (n >= count) return u_station;
     const double rest = 1.0 / static_cast<double>(count);
     const double share = (1.0 / static_cast<double>(n) - rest) / (1.0 - rest);
@@ -105,8 +108,13 @@ void add_value(Json& json, const Stay& stay, const model::SurveyCorrection& resu
         return;
     }
     const double gravity = sum / static_cast<double>(stay.rows.size());
-    if (u && station != nullptr && station->u_left_out)
-        u = u_of_mean(*u, stay.rows.size(), station->u_left_out->value(), station->row_count);
+    if (u && station != nullptr && station->u_gravity) {
+        // A misfit has enlarged that of the station, not those of the set-ups.
+        const auto* const day = result.as<model::WholeDayPart>();
+        const double misfit = day == nullptr ? 1.0 : day->uncertainty_factor;
+        u = misfit * u_of_mean(*u, station->u_gravity->value() / misfit, stay.rows.size(),
+                               station->row_count);
+    }
     json["gravity_mgal"] = gravity;
     const double off = reference ? gravity - reference->value() : 0.0;
     if (reference) json["left_out_difference_mgal"] = off;

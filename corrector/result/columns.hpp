@@ -36,8 +36,8 @@ namespace a351::corrector::result {
 [[nodiscard]] std::vector<Column<model::CorrectedRow>> occupation_columns(
     const model::SurveyCorrection& result);
 
-/// Contributions to u, which only the whole-day model gives: key of the column and heading, in the
-/// order of whole_day::ErrorSource.
+/// Contributions to the u of the whole-day model: key of the column and heading, in the order of
+/// whole_day::ErrorSource.
 inline constexpr std::array<std::pair<std::string_view, std::string_view>, whole_day::kErrorSources>
     kContributions{{{"u_placement_mgal", text::marked("Placement")},
                     {"u_flicker_mgal", text::marked("Flicker")},

@@ -38,9 +38,9 @@ enum class Misfit { curvature, step, tails };
 /// Names of the tests in result.json.
 inline constexpr std::array<std::string_view, 3> kMisfitNames{"curvature", "step", "tails"};
 
-/// Probabilities below which a test counts as a misfit.  Reason: at most one ordinary day in 20 may
-/// have a finding, and the search for mistakes takes 2 % of these.  The level of the tails is the
-/// smallest, because ordinary days are below it four to six times as often as it says (accuracy.md).
+/// Probabilities below which a test counts as a misfit.  Reason: at most 5 % of ordinary days may have
+/// a finding, and the search for mistakes has one on 2 to 3 %.  The level of the tails is the smallest,
+/// because ordinary days are below it several times as often as it says (accuracy.md).
 inline constexpr std::array<double, 3> kMisfitProbabilities{0.013, 0.015, 0.002};
 
 /// A test of the fit.

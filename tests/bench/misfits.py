@@ -19,7 +19,7 @@ from command_line import add_days, at_least, command_line, end_with
 from simulated_units import correct, rms, simulate
 from programs import TOOLS, Scratch, read_json, rows, run
 
-FALSE_ALARMS = 0.025  # of the bounds: about those of the tests for a step and for heavy tails.
+FALSE_ALARMS = 0.015  # of the bounds: that of the test for a step.
 BOUNDS = {"step": ("step", 8), "heavy tails": ("gross", 0.2, 10)}
 DAYS = {"ordinary": ("", None), "quadratic": ("crystal_quadratic_mgal_per_degc2 = 60.0\n", 0.9),
         "step": ("[slow_noise]\ntransport_step_mgal = 8.0\n", None),  # 90 % are above the bound.

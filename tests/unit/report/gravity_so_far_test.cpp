@@ -60,7 +60,7 @@ TEST_CASE("u of a stay is that of the mean of its set-ups", "[report][so_far]") 
     model::StationValue& station = so_far.result->stations.emplace_back();
     station.site = "No.6";
     station.row_count = static_cast<std::size_t>(kCount);
-    station.u_left_out = MilliGal(kStation_mgal);
+    station.u_gravity = MilliGal(kStation_mgal);
     const auto u = [&](std::size_t stay) {
         return to_json(so_far).at("stays").at(stay).at("u_mgal").get<double>();
     };
@@ -68,9 +68,16 @@ TEST_CASE("u of a stay is that of the mean of its set-ups", "[report][so_far]") 
         CHECK(u(stay) ==
               Approx(std::hypot(kStation_mgal,
                                 kPlacement_mgal * std::sqrt(1.0 / set_ups - 1.0 / kCount))));
+    // A misfit of the day enlarges the u of its stations, and so that of each stay.
+    const double before = u(0);
+    model::WholeDayPart part;
+    part.uncertainty_factor = 2.0;
+    so_far.result->own = part;
+    station.u_gravity = MilliGal(2.0 * kStation_mgal);
+    CHECK(u(0) == Approx(2.0 * before));
     so_far.result->rows.erase(so_far.result->rows.begin(), so_far.result->rows.begin() + 2);
     station.row_count = 3;
-    CHECK(u(0) == Approx(kStation_mgal));
+    CHECK(u(0) == Approx(2.0 * kStation_mgal));
 }
 
 }  // namespace

@@ -2,8 +2,13 @@
 // describes their language; tests/system/transcripts.py plays some of them over a terminal.
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
+#include <optional>
+#include <span>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "protocol/text/text_file.hpp"
 #include "sim/device/device_stream.hpp"
@@ -64,15 +69,27 @@ public:
             CAPTURE(file.filename().string(), line);
             const std::string verb = words[0];
             words.erase(words.begin());
-            if (verb == "play") play(kFolder / words.at(0));
-            if (verb == "restart") machine_.power_cycle(now_);
-            if (verb == ">") send(words);
-            if (verb == "<") REQUIRE(matches(words, take(words.size())));
-            if (verb == "until") repeat(words);
-            if (verb == "frames") frames(words);
-            if (verb == "wait" || verb == "silence" || verb == "drain") wait(1ms * std::stoi(words[0]));
-            if (verb == "silence") REQUIRE(hex_of(heard_.bytes) == "");
-            if (verb == "drain") heard_.bytes.clear();
+            if (verb == "play") {
+                play(kFolder / words.at(0));
+            } else if (verb == "restart") {
+                machine_.power_cycle(now_);
+            } else if (verb == ">") {
+                send(words);
+            } else if (verb == "<") {
+                REQUIRE(matches(words, take(words.size())));
+            } else if (verb == "until") {
+                repeat(words);
+            } else if (verb == "frames") {
+                frames(words);
+            } else {
+                wait(1ms * std::stoi(words.at(0)));
+                if (verb == "silence")
+                    REQUIRE(hex_of(heard_.bytes) == "");
+                else if (verb == "drain")
+                    heard_.bytes.clear();
+                else
+                    REQUIRE(verb == "wait");
+            }
         }
     }
 
@@ -127,6 +144,7 @@ private:
             const auto answer = take(pattern.size());
             if (matches(pattern, answer)) return;
             REQUIRE(answer.front() == bytes_of(pattern.front())[0]);
+            REQUIRE(answer.back() == bytes_of(pattern.back())[0]);
             REQUIRE(now_ < end);
         }
     }
