@@ -30,6 +30,7 @@ struct NetworkOptions {
 /// Options of a correction.
 ///
 /// correct_survey() checks `model`, `base` and `datum`.  The other members are not checked.
+/// Each member has an initialiser, so that a caller can name those that it sets.
 struct SurveyOptions {
     std::string model = "auto";  ///< One of model_names().
     std::string base = {};       ///< Station of the drift step; empty: that of the first row.

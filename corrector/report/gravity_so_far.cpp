@@ -67,16 +67,16 @@ std::vector<Stay> stays_of(const std::vector<reading::SurveyRow>& rows,
     return stays;
 }
 
-/// Returns the uncertainty of the mean of n of a station's N set-ups:
+/// Returns what the mean of n of a station's N set-ups is uncertain by besides the station:
 ///
-///     u^2 = u_station^2 + s^2 (1/n - 1/N),   u_set_up^2 = u_station^2 + s^2 (1 - 1/N)
+///     sqrt(s^2 (1/n - 1/N)),   u_set_up^2 = u_station^2 + s^2 (1 - 1/N)
 ///
 /// with s the part that each set-up has alone: the placement, or the scatter of a linear model.
-double u_of_mean(double u_set_up, double u_station, std::size_t n, std::size_t count) {
-    if (n >= count) return u_station;
+double own_part(double u_set_up, double u_station, std::size_t n, std::size_t count) {
+    if (n >= count || u_set_up <= u_station) return 0.0;
     const double rest = 1.0 / static_cast<double>(count);
-    const double share = (1.0 / static_cast<double>(n) - rest) / (1.0 - rest);
-    return std::sqrt(share * u_set_up * u_set_up + (1.0 - share) * u_station * u_station);
+    return std::sqrt((u_set_up * u_set_up - u_station * u_station) *
+                     (1.0 / static_cast<double>(n) - rest) / (1.0 - rest));
 }
 
 /// Sets the value of a stay with rows.  That of a known station does not use its own reference.
@@ -112,13 +112,13 @@ void add_value(Json& json, const Stay& stay, const model::SurveyCorrection& resu
         // A misfit has enlarged that of the station, not those of the set-ups.
         const auto* const day = result.as<model::WholeDayPart>();
         const double misfit = day == nullptr ? 1.0 : day->uncertainty_factor;
-        u = misfit * u_of_mean(*u, station->u_gravity->value() / misfit, stay.rows.size(),
-                               station->row_count);
+        const double own = misfit * own_part(*u, station->u_gravity->value() / misfit,
+                                             stay.rows.size(), station->row_count);
+        u = std::hypot(u_evening.value_or(*station->u_gravity).value(), own);
     }
     json["gravity_mgal"] = gravity;
     const double off = reference ? gravity - reference->value() : 0.0;
     if (reference) json["left_out_difference_mgal"] = off;
-    if (u_evening) u = u_evening->value();
     if (u)
         json["u_mgal"] =
             std::hypot(factor * *u, is_named ? std::max(std::abs(off), 0.5 * (most - least)) : 0.0);

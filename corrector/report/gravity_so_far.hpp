@@ -30,7 +30,8 @@ struct GravitySoFar {
 ///
 /// - gravity_mgal: mean of the corrected values of its set-ups; of a known station without its own
 ///   reference.
-/// - u_mgal: standard uncertainty as if the station were unknown; of the running stay `u_evening`.
+/// - u_mgal: standard uncertainty of this mean as if the station were unknown; of the running stay with
+///   `u_evening` for that of its station.
 ///   While something contradicts it is larger: judgement::doubt_factor(), and the difference from the
 ///   reference of a stay that is named.
 /// - missing_parts: what is needed before gravity is known; null if it is.

@@ -68,6 +68,11 @@ TEST_CASE("u of a stay is that of the mean of its set-ups", "[report][so_far]") 
         CHECK(u(stay) ==
               Approx(std::hypot(kStation_mgal,
                                 kPlacement_mgal * std::sqrt(1.0 / set_ups - 1.0 / kCount))));
+    // A return to the base makes the station better, not the placement of the stay.
+    so_far.read->running_key = "A";
+    so_far.u_evening = MilliGal(0.5);
+    CHECK(u(0) == Approx(std::hypot(0.5, kPlacement_mgal * std::sqrt(1.0 / 2.0 - 1.0 / kCount))));
+    so_far.u_evening.reset();
     // A misfit of the day enlarges the u of its stations, and so that of each stay.
     const double before = u(0);
     model::WholeDayPart part;
