@@ -73,19 +73,24 @@ std::optional<SampleGrid> sampling_grid(const std::vector<archive::Segment>& seg
     return SampleGrid{*origin, rate_hz, static_cast<std::size_t>(std::max(count, 1.0))};
 }
 
-std::vector<double> place_on_grid(const std::vector<archive::Segment>& segments,
-                                  const station::ChannelScale& scale, const SampleGrid& grid) {
-    std::vector<NumberedSamples> placed;
+std::vector<NumberedSamples> number_on_grid(const std::vector<archive::Segment>& segments,
+                                            const SampleGrid& grid) {
+    std::vector<NumberedSamples> numbered;
     const UtcTime earliest = grid.origin - from_seconds(0.5 / grid.rate_hz);
     for (const archive::Segment& segment : segments) {
         const std::size_t first = first_at_or_after(segment, earliest);
         if (first == segment.counts.size()) continue;
         const std::int64_t number =
             std::llround(seconds_between(grid.origin, segment.time_of(first)) * grid.rate_hz);
-        if (number >= 0) placed.push_back({std::span(segment.counts).subspan(first), number});
+        if (number >= 0) numbered.push_back({std::span(segment.counts).subspan(first), number});
     }
+    return numbered;
+}
+
+std::vector<double> place_on_grid(const std::vector<archive::Segment>& segments,
+                                  const station::ChannelScale& scale, const SampleGrid& grid) {
     std::vector<double> values(grid.count);
-    fill(values, 0, placed, scale.gain, scale.offset);
+    fill(values, 0, number_on_grid(segments, grid), scale.gain, scale.offset);
     return values;
 }
 

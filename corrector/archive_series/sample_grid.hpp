@@ -29,6 +29,9 @@ struct NumberedSamples {
     }
 };
 
+/// Values of one fill() in a long series, so that a block fits into the cache.
+inline constexpr std::size_t kBlockSamples = 16384;
+
 /// Sets the values numbered `at` and more: offset + gain x count, NaN where no sample has the
 /// number.  If several samples have a number, the last one in the list counts.
 void fill(std::span<double> values, std::int64_t at, const std::vector<NumberedSamples>& samples,
@@ -57,18 +60,21 @@ struct SampleGrid {
 [[nodiscard]] std::optional<SampleGrid> sampling_grid(const std::vector<archive::Segment>& segments,
                                                       UtcTime start, UtcTime end);
 
-/// Puts segments on the grid, value = offset + gain x count; NaN if there is no sample.  A segment
-/// is placed by its first sample and not divided.
+/// Numbers segments by the instants of the grid.  A segment is placed by its first sample and not
+/// divided.
 ///
 /// Samples more than half a step before the origin are left out.  The first of the others is put at
 /// the nearest instant, and those after it follow one by one.  Within a segment no sample is lost
 /// or doubled.  After a long segment at another rate they are off their instants by the drift.
 ///
-/// Samples beyond the last instant are left out.  If two segments claim an instant, the later one
-/// in the list has it.
-///
-/// @param segments  of one channel, in order of time.
-/// @param scale     gain and offset of the channel.
+/// @param segments  of one channel, in order of time; must outlive the result.
+/// @return the samples for fill(), which may be numbered beyond the last instant.
+[[nodiscard]] std::vector<NumberedSamples> number_on_grid(
+    const std::vector<archive::Segment>& segments, const SampleGrid& grid);
+
+/// Returns the values at all instants: fill() of number_on_grid().  Samples beyond the last instant
+/// are left out.
+/// @param scale  gain and offset of the channel.
 /// @return (grid.count) values in the unit of the scale.
 [[nodiscard]] std::vector<double> place_on_grid(const std::vector<archive::Segment>& segments,
                                                 const station::ChannelScale& scale,

@@ -26,12 +26,11 @@ namespace a351::corrector::long_record {
 namespace {
 
 using archive_series::Epoch, archive_series::kOuter, archive_series::kTemperature;
-using archive_series::NumberedSamples;
+using archive_series::kBlockSamples, archive_series::NumberedSamples;
 using std::chrono::days;
 
 constexpr std::size_t kChannels = kTemperature + 1;
 constexpr std::size_t kLeading = archive_series::kVertical;  // its gaps divide the record
-constexpr std::size_t kBlockSamples = 16384;  // so that a channel's block fits in the cache
 constexpr double kSameRate = 1e-3;            // relative; ten times the error of a sensor's clock
 
 /// The samples of a day, or of an epoch's part of it.

@@ -6,7 +6,6 @@
 
 #include "corrector/reading/disturbance.hpp"
 #include "corrector/reading/smoother.hpp"
-#include "protocol/signal/decimation.hpp"
 
 namespace a351::corrector::reading {
 namespace {
@@ -105,9 +104,7 @@ bool has_two_faces(const std::vector<DayBin>& bins) {
         bins, [&bins](const DayBin& bin) { return bin.face != bins.front().face; });
 }
 
-std::optional<DayTemperature> day_temperature(const TimeSeries<DegC>& raw) {
-    const TimeSeries<DegC> decimated =
-        signal::decimate(raw, signal::design_decimation(kDecimationFactor), kDecimationStages);
+std::optional<DayTemperature> day_temperature(const TimeSeries<DegC>& decimated) {
     const double cutoff = kCutoff_s * decimated.rate().value();
     std::vector<double> values = decimated.values();
     const std::vector<Stretch> runs =

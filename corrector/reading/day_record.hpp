@@ -81,7 +81,7 @@ struct DayTemperature {
     [[nodiscard]] bool is_bridged(UtcTime time) const;
 };
 
-/// Decimates and smooths the temperature of a day.
+/// Smooths the decimated temperature of a day.
 ///
 /// Gaps longer than 60 s (half the cut-off) separate pieces, which are smoothed one by one.  A
 /// piece shorter than the cut-off is not smoothed.  The smoother fills the gaps within a piece; all
@@ -89,11 +89,12 @@ struct DayTemperature {
 ///
 /// With thermometer noise of 0.01 degC per sample the result is within 0.0015 degC of a ramp, also
 /// over a gap of 300 s (tests/unit/whole_day/day_record_test.cpp).
-/// @param raw  temperature at the sensor's rate, 10 to 4000 Hz; missing samples NaN.
+/// @param decimated  temperature, kDecimationStages times decimated by kDecimationFactor, 0.1 to 40 Hz;
+///                   missing samples NaN.
 /// @return the temperature from the first valid sample to the last; std::nullopt with less than ten
-///         minutes of valid samples after decimation.  Gaps within a piece count as valid.
+///         minutes of valid samples.  Gaps within a piece count as valid.
 /// @throws std::invalid_argument  as smooth(), at rates outside this range.
-[[nodiscard]] std::optional<DayTemperature> day_temperature(const TimeSeries<DegC>& raw);
+[[nodiscard]] std::optional<DayTemperature> day_temperature(const TimeSeries<DegC>& decimated);
 
 /// Returns the faces of the set-ups (set_ups) of bins; 1 without a bin.
 [[nodiscard]] std::vector<double> faces_of(const std::vector<DayBin>& bins, std::size_t set_ups);

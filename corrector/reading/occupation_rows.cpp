@@ -18,6 +18,7 @@
 #include "protocol/archive/journal_tail.hpp"
 #include "protocol/core/sensor_limits.hpp"
 #include "protocol/events/face.hpp"
+#include "protocol/signal/decimator.hpp"
 
 namespace a351::corrector::reading {
 namespace {
@@ -70,11 +71,22 @@ std::optional<DayTemperature> temperature_of_day(const Samples& samples, const E
     const auto grid =
         archive_series::sampling_grid(segments, segments.front().time_of(0), windows.back().end);
     if (!grid) return std::nullopt;
-    auto values_degc = archive_series::place_on_grid(segments, epoch.channels[kTemperature], *grid);
-    for (double& degc : values_degc)
-        if (!is_temperature_believable(DegC(degc))) degc = std::nan("");
+    const station::ChannelScale& scale = epoch.channels[kTemperature];
+    const auto samples_on_grid = archive_series::number_on_grid(segments, *grid);
+    signal::Decimator decimator(signal::design_decimation(kDecimationFactor), kDecimationStages);
+    std::vector<double> block_degc, decimated_degc;
+    for (std::size_t at = 0; at < grid->count; at += block_degc.size()) {
+        block_degc.resize(std::min(archive_series::kBlockSamples, grid->count - at));
+        archive_series::fill(block_degc, static_cast<std::int64_t>(at), samples_on_grid, scale.gain,
+                             scale.offset);
+        for (double& degc : block_degc)
+            if (!is_temperature_believable(DegC(degc))) degc = std::nan("");
+        decimator.push(block_degc, decimated_degc);
+    }
+    decimator.finish(decimated_degc);
     return day_temperature(
-        TimeSeries<DegC>(grid->origin, Hertz(grid->rate_hz), std::move(values_degc)));
+        TimeSeries<DegC>(grid->origin, Hertz(grid->rate_hz / kDecimationFactor / kDecimationFactor),
+                         std::move(decimated_degc)));
 }
 
 /// Adds the temperature of an outer oven to the day, or a warning why it is not used.

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <map>
 #include <set>
-#include <span>
 #include <utility>
 
 #include "protocol/archive/record_joiner.hpp"
@@ -29,31 +28,63 @@ bool continues(const ChannelData& data, UtcTime start, double rate_hz) {
            from_seconds(0.5 / rate_hz);
 }
 
-/// The records of a day file so far, to find those that are there twice.
-class RecordsSeen {
+/// The records of a day file, from its begin.  The file is read in pieces: a whole one of a day at 50 Hz
+/// costs more time in new pages of memory than its records need to be decoded.
+class RecordFile {
 public:
-    explicit RecordsSeen(std::span<const std::byte> bytes) : bytes_(bytes) {}
+    RecordFile(const fs::path& file, const std::string& channel)
+        : file_(file), channel_(channel), size_(fs::file_size(file)) {}
 
-    /// Returns false if the record at `offset` was seen before, maybe with another number.
-    [[nodiscard]] bool is_new(UtcTime start, std::size_t offset) {
+    [[nodiscard]] std::uintmax_t size() const { return size_; }
+
+    /// Returns the offset after the record that next() returned; the size after its last call.
+    [[nodiscard]] std::uint64_t offset() const { return offset_; }
+
+    /// Returns the next record of the channel; std::nullopt: there is none.
+    std::optional<DecodedRecord> next() {
+        while (true) {
+            std::size_t at = offset_ - piece_at_;
+            auto record = next_record(piece_, channel_, at);
+            const std::uint64_t piece_end = piece_at_ + piece_.size();
+            if (record || piece_end == size_) {
+                offset_ = piece_at_ + at;
+                return record;
+            }
+            // The last bytes may be the begin of a record.
+            if (piece_end >= offset_ + kRecordSize) offset_ = piece_end - kRecordSize + 1;
+            piece_at_ = offset_;
+            piece_ = files::read_bytes(file_, offset_, std::min(kPieceSize, size_ - offset_));
+        }
+    }
+
+    /// Returns false if the record before offset() is there twice, maybe with another number.
+    [[nodiscard]] bool is_new(UtcTime start) {
         constexpr std::size_t kNumber = 6;  // digits of the record's number, which begin it
-        const auto body = [this](std::size_t at) {
-            return bytes_.subspan(at + kNumber, kRecordSize - kNumber);
+        const std::uint64_t begin = offset_ - kRecordSize;
+        const auto body = [this](std::uint64_t record) {
+            return files::read_bytes(file_, record + kNumber, kRecordSize - kNumber);
         };
         // In a file of one recorder the times ascend, and nothing is compared.
         auto at = std::ranges::lower_bound(seen_, start, {}, &Seen::start);
         for (; at != seen_.end() && at->start == start; ++at)
-            if (std::ranges::equal(body(at->offset), body(offset))) return false;
-        seen_.insert(at, {start, offset});
+            if (body(at->offset) == body(begin)) return false;
+        seen_.insert(at, {start, begin});
         return true;
     }
 
 private:
     struct Seen {
         UtcTime start;
-        std::size_t offset = 0;
+        std::uint64_t offset = 0;
     };
-    std::span<const std::byte> bytes_;
+    static constexpr std::uintmax_t kPieceSize = 1U << 18U;
+
+    fs::path file_;
+    std::string channel_;
+    std::uintmax_t size_;
+    std::uint64_t offset_ = 0;
+    std::uint64_t piece_at_ = 0;  ///< Offset of `piece_` in the file.
+    std::vector<std::byte> piece_;
     std::vector<Seen> seen_;  ///< Ascending.
 };
 
@@ -161,17 +192,17 @@ ChannelData read_records(const fs::path& archive, const journal::StationCodes& c
     RecordJoiner joiner(data, from, to, wrong);
     for (const auto& file :
          day_files(archive, codes, channel, from, to)) {  // no record crosses midnight
-        const auto bytes = files::read_bytes(file);
-        RecordsSeen seen(bytes);
-        joiner.expect(bytes.size() / kRecordSize);
-        for (std::size_t at = 0; at < bytes.size();) {
-            const std::size_t unread = at;
-            const auto record = next_record(bytes, channel, at);
-            const std::size_t found = record ? at - kRecordSize : at;
+        RecordFile records(file, channel);
+        joiner.expect(records.size() / kRecordSize);
+        while (true) {
+            const std::uint64_t unread = records.offset();
+            const auto record = records.next();
+            const std::uint64_t found = records.offset() - (record ? kRecordSize : 0);
             if (found > unread) data.damage.push_back({file, unread, found - unread});
-            if (record && !is_of(codes, record->header))
+            if (!record) break;
+            if (!is_of(codes, record->header))
                 data.damage.push_back({file, found, kRecordSize, true});
-            else if (record && seen.is_new(record->header.start, found))
+            else if (records.is_new(record->header.start))
                 joiner.take(*record);
         }
     }

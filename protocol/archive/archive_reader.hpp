@@ -103,7 +103,7 @@ struct ChannelData {
 /// A missing archive or channel gives no segments and no error, and so does from >= to.  The
 /// interval may exceed the archive, for example UtcTime::min() to UtcTime::max().
 ///
-/// Cost: each day file of the interval is read as a whole, one at a time.  Thread-safe.
+/// Cost: each day file of the interval is read once, in pieces.  Thread-safe.
 /// @param codes    valid codes, see are_valid(); they become parts of the path.
 /// @param channel  channel code, e.g. BNZ; records of another channel in its files are damage.
 /// @param metadata_hz  rate of the metadata, if it is known.  If headers have another one by more than

@@ -72,6 +72,40 @@ TEST_CASE("records of another station in a day file are damage, and are named as
         to_text(data.damage[0]).ends_with("offset 512: 512 bytes are a record of another station"));
 }
 
+TEST_CASE(
+    "a day file longer than a piece is read like a short one, with damage at the end of a piece",
+    "[record][archive_reader]") {
+    constexpr std::size_t kPiece = 1U << 18U;
+    constexpr std::size_t kRecords = kPiece / kRecordSize + 40;
+    Archive archive;
+    for (std::size_t i = 0; i < kRecords; ++i)
+        archive.add(kBegin + static_cast<int>(i) * 100 * kStep, static_cast<int>(i) * 100);
+    const auto whole = test::read_bytes(archive.day_file());
+    for (const std::size_t before : {0U, 1U, 7U, 511U}) {   // bytes before the first record
+        for (const std::size_t within : {0U, 5U, 1030U}) {  // and after the last one of the piece
+            CAPTURE(before, within);
+            constexpr std::size_t kAt = kPiece - kRecordSize;
+            auto bytes = whole;
+            bytes.insert(bytes.begin() + kAt, within, std::byte{'#'});
+            bytes.insert(bytes.begin(), before, std::byte{'#'});
+            bytes.insert(bytes.end(), whole.begin(), whole.begin() + kRecordSize);  // twice
+            bytes.insert(bytes.end(), 100, std::byte{'0'});
+            test::write_bytes(archive.day_file(), bytes);
+            const auto data = archive.read();
+            REQUIRE(data.segments.size() == 1);
+            std::vector<std::int32_t> expected(kRecords * 100);
+            std::iota(expected.begin(), expected.end(), 0);
+            CHECK(data.segments[0].counts == expected);
+            std::vector<std::pair<std::uint64_t, std::uint64_t>> damage, found;
+            if (before > 0) damage.emplace_back(0, before);
+            if (within > 0) damage.emplace_back(kAt + before, within);
+            damage.emplace_back(bytes.size() - 100, 100);
+            for (const Damage& one : data.damage) found.emplace_back(one.offset, one.byte_count);
+            CHECK(found == damage);
+        }
+    }
+}
+
 TEST_CASE("a rate in headers that contradicts the metadata: the starts of the records decide",
           "[record][archive_reader]") {
     const auto read = [](double header_hz, double metadata_hz) {

@@ -24,6 +24,12 @@ OccupationRecord still(double seconds, double z_g = 0.999) {
     return {axis(0.001), axis(-0.002), axis(z_g), TimeSeries<DegC>(kRecordStart, kRate, {})};
 }
 
+std::optional<DayTemperature> of_raw(const std::vector<double>& degc) {
+    return day_temperature(signal::decimate(TimeSeries<DegC>(kRecordStart, kRate, degc),
+                                            signal::design_decimation(kDecimationFactor),
+                                            kDecimationStages));
+}
+
 }  // namespace
 
 TEST_CASE("bins contain the mean norm and the mean horizontal axes", "[day]") {
@@ -84,7 +90,7 @@ TEST_CASE("the day's temperature is smooth, and its gaps are bridged", "[day]") 
         degc[i] = 42.0 + 1e-6 * static_cast<double>(i) + noise(random);
     std::fill(degc.begin() + 60000, degc.begin() + 75000,
               std::numeric_limits<double>::quiet_NaN());  // 300 s
-    const auto day = day_temperature({kRecordStart, kRate, degc});
+    const auto day = of_raw(degc);
     REQUIRE(day);
     CHECK(day->longest_gap_s() == Approx(318.0).margin(4.0));
     const double late_s = seconds_between(kRecordStart, day->series.start());
@@ -95,8 +101,6 @@ TEST_CASE("the day's temperature is smooth, and its gaps are bridged", "[day]") 
 }
 
 TEST_CASE("a few minutes of temperature, or none, are too short for a day", "[day]") {
-    CHECK_FALSE(day_temperature({kRecordStart, kRate, std::vector<double>(25000, 42.0)}));
-    CHECK_FALSE(
-        day_temperature({kRecordStart, kRate,
-                         std::vector<double>(90000, std::numeric_limits<double>::quiet_NaN())}));
+    CHECK_FALSE(of_raw(std::vector<double>(25000, 42.0)));
+    CHECK_FALSE(of_raw(std::vector<double>(90000, std::numeric_limits<double>::quiet_NaN())));
 }
