@@ -61,12 +61,11 @@ Figure allan_figure(const long_record::RecordResult& result, const Print& print)
         lines += data_line(
             "0555", {averaging_s, deviation.before, deviation.parametric, deviation.by_modes});
     const std::string source = figure.add("averaging_s before parametric by_modes (mGal)", lines);
-    figure.panels = {
-        {{.label = tr("Averaging (s)"), .scale = Scale::logarithmic},
-         {.label = tr("Allan deviation (mGal)"), .scale = Scale::logarithmic},
-         {{Look::linked_discs, Colour::grey, tr("before"), {{1}, {2}}, source},
-          {Look::linked_triangles, Colour::blue, tr("parametric"), {{1}, {3}}, source},
-          {Look::linked_squares, Colour::vermilion, tr("by modes"), {{1}, {4}}, source}}}};
+    figure.panels = {{{.label = tr("Averaging (s)"), .scale = Scale::logarithmic},
+                      {.label = tr("Allan deviation (mGal)"), .scale = Scale::logarithmic},
+                      {{Look::linked_discs, Colour::grey, tr("before"), {1, 2}, source},
+                       {Look::linked_triangles, Colour::blue, tr("parametric"), {1, 3}, source},
+                       {Look::linked_squares, Colour::vermilion, tr("by modes"), {1, 4}, source}}}};
     return figure;
 }
 

@@ -97,15 +97,12 @@ void plot_samples(Panel& panel, const model::SurveyCorrection& result,
     if (records.empty()) return;
     const double half_mgal = half_range_of(result, records, false);
     panel.y.range = {-half_mgal, half_mgal};
-    for (const ReadingRecord& record : records) {
-        const Column time{1, instant(record.value->series.start()), 60.0};
-        const Column sample{2, -result.rows[record.row].row.measured().value()};
+    for (const ReadingRecord& record : records)
         panel.series.push_back({Look::thin_line,
                                 Colour::blue,
                                 "",
-                                {time, sample},
+                                {5, 2},
                                 source_of(reading_figure_name(record.row), 0)});
-    }
 }
 
 void plot_temperatures(Figure& figure, const model::SurveyCorrection& result,
@@ -238,8 +235,14 @@ std::optional<Figure> faces_figure(const model::SurveyCorrection& result, const 
         stay.count.at(face) += 1.0;
         stay.after += one.row.time - first;
     }
-    std::string differences, sums;
-    double sum_mgal = 0.0, count = 0.0;
+    struct Half {
+        std::string time;
+        double difference_mgal;
+        std::string end;
+    };
+    std::vector<Half> halves;
+    std::string sums;
+    double mean_mgal = 0.0;
     for (const auto& [name, stay] : stays) {
         if (stay.count[0] == 0.0 || stay.count[1] == 0.0) continue;
         const double up_mgal = stay.sum_mgal[0] / stay.count[0],
@@ -247,17 +250,19 @@ std::optional<Figure> faces_figure(const model::SurveyCorrection& result, const 
         const auto set_ups = static_cast<Nanoseconds::rep>(stay.count[0] + stay.count[1]);
         const std::string time = to_rfc3339(first + stay.after / set_ups) + ' ',
                           end = "# " + clean_utf8(name.first) + '\n';
-        const double half_mgal = 0.5 * (up_mgal - down_mgal);
-        differences += time + data_line("4", {half_mgal}, end);
-        sum_mgal += half_mgal;
-        count += 1.0;
+        halves.push_back({time, 0.5 * (up_mgal - down_mgal), end});
+        mean_mgal += halves.back().difference_mgal;
         const auto station =
             std::ranges::find(result.stations, name.first, &model::StationValue::site);
         if (station != result.stations.end())
             sums += time +
                     data_line("4", {0.5 * (up_mgal + down_mgal) - station->gravity.value()}, end);
     }
-    if (count == 0.0) return std::nullopt;
+    if (halves.empty()) return std::nullopt;
+    mean_mgal /= static_cast<double>(halves.size());
+    std::string differences;
+    for (const auto& [time, half_mgal, end] : halves)
+        differences += time + data_line("4", {half_mgal - mean_mgal}, end);
     Figure figure{
         "faces",
         tr("Both faces of the sensor, a point for each stay. Above: half the difference of the "
@@ -265,7 +270,7 @@ std::optional<Figure> faces_figure(const model::SurveyCorrection& result, const 
            "drift and temperature. Below: half their sum minus the gravity found for the station; "
            "what is left is of the scale, placement and noise. Figures of readings that are not "
            "corrected are left out, because they show twice the bias between the faces.",
-           text::fixed(sum_mgal / count, 1)),
+           text::fixed(mean_mgal, 1)),
         print.wide_mm(),
         {{.y = {.label = tr("Half difference - mean (mGal)")},
           .has_margin = true,
@@ -273,8 +278,7 @@ std::optional<Figure> faces_figure(const model::SurveyCorrection& result, const 
          {.y = {.label = tr("Half sum - gravity (mGal)")},
           .has_margin = true,
           .height_mm = kStackedPanel_mm}}};
-    figure.plot("stays: time_utc half_difference_mgal", differences,
-                {Look::discs, Colour::blue, "", {{1}, {2, -sum_mgal / count}}});
+    figure.plot("stays: time_utc half_difference_minus_mean_mgal", differences, {Look::discs});
     figure.plot("stays: time_utc half_sum_minus_gravity_mgal", sums,
                 {Look::triangles, Colour::vermilion}, 1);
     std::erase_if(figure.panels, [](const Panel& panel) { return panel.series.empty(); });

@@ -49,7 +49,7 @@ Figure design_figure(const design::ExpectedErrors& errors, const Print& print) {
         lines);
     int column = 2 + static_cast<int>(kParts.size());
     for (auto part = kParts.rbegin(); part != kParts.rend(); ++part, --column)  // highest bar first
-        panel.series.push_back({Look::boxes, part->second, part->first, {{1}, {column}}, source});
+        panel.series.push_back({Look::boxes, part->second, part->first, {1, column}, source});
     return figure;
 }
 

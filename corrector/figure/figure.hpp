@@ -48,12 +48,6 @@ enum class Look {
 };
 // clang-format on
 
-/// A column of the data: times * value + plus.
-struct Column {
-    int number;  ///< From 1.
-    double plus = 0.0, times = 1.0;
-};
-
 /// Source of the line y = 0, which needs no data.
 inline const std::string kZero = "0";
 
@@ -61,7 +55,9 @@ struct Series {
     Look look = Look::line;
     Colour colour = Colour::blue;
     std::string label = {};  ///< In the key; empty: not there.
-    std::vector<Column> columns = {{1}, {2}};
+    /// Numbers of the columns, from 1.  Expressions of gnuplot would cost more time than all the rest of
+    /// a survey's figures, because each value is two system calls.
+    std::vector<int> columns = {1, 2};
     std::string source = {};  ///< Figure::add(), source_of() or kZero.
     bool is_right = false;    ///< Its y axis is the right one.
 };

@@ -1,6 +1,7 @@
 #include "corrector/figure/gnuplot_script.hpp"
 
 #include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -162,15 +163,9 @@ std::vector<std::string> settings_of(const Panel& panel) {
 }
 
 std::string clause_of(const Series& series) {
-    std::vector<std::string> columns;
-    for (const auto& [number_of, plus, times] : series.columns)
-        columns.push_back(plus == 0.0 && times == 1.0
-                              ? fmt::format("{}", number_of)
-                              : fmt::format("(${}{}{:+.14g})", number_of,
-                                            times == 1.0 ? "" : "*" + number(times), plus));
     const bool has_data = series.source != kZero;
     return fmt::format("{}{}{} with {} {} {}", series.source,
-                       has_data ? " using " + text::joined(columns, ":") : "",
+                       has_data ? fmt::format(" using {}", fmt::join(series.columns, ":")) : "",
                        series.is_right ? " axes x1y2" : "", look_of(series.look),
                        series.colour == Colour::by_value
                            ? "palette"

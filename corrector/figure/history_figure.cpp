@@ -74,7 +74,7 @@ Figure history_figure(const std::vector<result::UnitDay>& days, const Print& pri
                         {kUnitMarks.at(unit % kUnitMarks.size()).first,
                          kUnitMarks.at(unit % kUnitMarks.size()).second,
                          units.size() > 1 ? units[unit] : "",
-                         {{1}, {2}, {3}}},
+                         {1, 2, 3}},
                         figure.panels.size() - 1);
         if (panel.series.empty()) figure.panels.pop_back();
     }

@@ -76,7 +76,7 @@ Figure raw_figure(const RecordResult& result, const Print& print) {
                                   "greatest sample of each step.") +
                                    as_published("2"),
                                start, above_reference(result), print);
-    const std::vector<Column> columns{{1}, {2}, {3}};
+    const std::vector<int> columns{1, 2, 3};
     figure.plot("hours acceleration: least, greatest (mGal)", acceleration,
                 {Look::area, Colour::blue, "", columns});
     figure.plot("hours temperature: least, greatest (degC)", temperature,

@@ -287,9 +287,9 @@ std::optional<Figure> map_figure(const model::SurveyCorrection& result,
     figure.plot("visits: longitude_deg latitude_deg number", route,
                 {Look::line, Colour::route_grey});
     figure.plot("with reference: longitude_deg latitude_deg altitude_m gravity_mgal", lines[0],
-                {Look::large_discs, Colour::by_value, tr("known gravity"), {{1}, {2}, {4}}});
+                {Look::large_discs, Colour::by_value, tr("known gravity"), {1, 2, 4}});
     figure.plot("without reference: longitude_deg latitude_deg altitude_m gravity_mgal", lines[1],
-                {Look::triangles, Colour::by_value, tr("unknown gravity"), {{1}, {2}, {4}}});
+                {Look::triangles, Colour::by_value, tr("unknown gravity"), {1, 2, 4}});
     return figure;
 }
 

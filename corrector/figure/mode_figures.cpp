@@ -114,7 +114,7 @@ Figure correlation_figure(const RecordResult& result, const Print& print) {
                               .range = {-end_s, end_s},
                               .step = round_step(end_s / 1.7)},
                              {tr("Correlation"), {-1.0, 1.0}},
-                             {{Look::thin_line, Colour::grey, "", {{1}, {2}}, kZero}}});
+                             {{Look::thin_line, Colour::grey, "", {1, 2}, kZero}}});
     figure.plot("modes: delay_s correlation", lines(modes),
                 {Look::strong_line, Colour::blue, tr("modes")});
     figure.plot("band: delay_s correlation", lines(analysis.band.correlation),

@@ -39,8 +39,8 @@ Figure density_figure(const std::string& name, const std::string& caption,
             data_line("99", {f, ground_noise_mgal_per_sqrt_hz(noise::GroundNoise::high, 1.0 / f)});
     }
     const std::string source = figure.add("frequency_hz mgal_per_sqrt_hz low high", measured);
-    figure.panels[0].series = {{Look::area, Colour::limits, "", {{1}, {3}, {4}}, source},
-                               {Look::line, Colour::blue, tr("record"), {{1}, {2}}, source}};
+    figure.panels[0].series = {{Look::area, Colour::limits, "", {1, 3, 4}, source},
+                               {Look::line, Colour::blue, tr("record"), {1, 2}, source}};
     figure.plot("NHNM: frequency_hz mgal_per_sqrt_hz", high,
                 {Look::dashed_line, Colour::black, "NHNM"});
     figure.plot("NLNM: frequency_hz mgal_per_sqrt_hz", low,
@@ -94,11 +94,10 @@ Figure allan_noise_figure(const std::string& name, const std::string& part,
     }
     figure.plot("averaging_s deviation_mgal", model,
                 {Look::strong_line, Colour::vermilion, tr("three noises")});
-    figure.plot(
-        "averaging_s deviation_mgal low high", points,
-        analysis.noises.describes_record
-            ? Series{Look::discs_with_bars, Colour::blue, tr("record"), {{1}, {2}, {3}, {4}}}
-            : Series{Look::discs, Colour::blue, tr("record")});
+    figure.plot("averaging_s deviation_mgal low high", points,
+                analysis.noises.describes_record
+                    ? Series{Look::discs_with_bars, Colour::blue, tr("record"), {1, 2, 3, 4}}
+                    : Series{Look::discs, Colour::blue, tr("record")});
     return figure;
 }
 
@@ -128,7 +127,7 @@ Figure spectrogram_figure(const RecordResult& result, const Print& print) {
                         tile.low_hz, tile.high_hz, std::sqrt(tile.mgal2_per_hz)});
     }
     figure.plot("hours frequency_hz from_h to_h low_hz high_hz mgal_per_sqrt_hz", lines,
-                {Look::tiles, Colour::by_value, "", {{1}, {2}, {3}, {4}, {5}, {6}, {7}}});
+                {Look::tiles, Colour::by_value, "", {1, 2, 3, 4, 5, 6, 7}});
     return figure;
 }
 

@@ -35,23 +35,28 @@ double trend_at(const RepresentativeValue& value, UtcTime time) {
     return at_or_nan(value.curve.values(), std::llround(place));
 }
 
-std::string series_lines(const RepresentativeValue& value) {
+/// Returns the samples minus the values of the reading.
+std::string series_lines(const RepresentativeValue& value, const reading::SurveyRow& row) {
+    const double mean_mgal = row.measured().value(), mean_degc = row.temperature.value();
     std::string lines;
     for (std::size_t i = 0; i < value.series.size(); ++i) {
         const UtcTime time = value.series.time_of(static_cast<double>(i));
         const auto index = static_cast<long long>(i);
-        lines += data_line(
-            "4335", {minutes_in(value, time), value.series.values()[i], trend_at(value, time),
-                     at_or_nan(value.temperature_series.values(), index)});
+        lines += data_line("4335",
+                           {minutes_in(value, time), value.series.values()[i] - mean_mgal,
+                            trend_at(value, time) - mean_mgal,
+                            at_or_nan(value.temperature_series.values(), index) - mean_degc},
+                           to_rfc3339(time, 3) + '\n');
     }
     return lines;
 }
 
-/// Returns instants with the values of the trend there.
-std::string trend_lines(const RepresentativeValue& value, const std::vector<UtcTime>& times) {
+/// Returns instants with the values of the trend there, minus that of the reading.
+std::string trend_lines(const RepresentativeValue& value, double mean_mgal,
+                        const std::vector<UtcTime>& times) {
     std::string lines;
     for (const UtcTime time : times)
-        lines += data_line("43", {minutes_in(value, time), trend_at(value, time)});
+        lines += data_line("43", {minutes_in(value, time), trend_at(value, time) - mean_mgal});
     return lines;
 }
 
@@ -97,17 +102,17 @@ std::string averaged_text(const model::CorrectedRow& row, double mean_mgal) {
 Figure reading_figure(const model::SurveyCorrection& result, const ReadingRecord& record,
                       const Print& print) {
     const RepresentativeValue& value = *record.value;
-    const double mean_mgal = value.curve_mean.value();
+    const reading::SurveyRow& row = result.rows[record.row].row;
+    const double mean_mgal = row.measured().value();
     const double half_mgal = std::max(half_range(value.series.values(), mean_mgal),
                                       1.1 * spread(value.curve.values(), mean_mgal, 1.0));
     const std::string reading = judgement::reading_name(result.rows, record.row);
     Figure figure{reading_figure_name(record.row),
                   tr("{}, from {}: {}", reading, to_rfc3339(value.series.start()),
-                     averaged_text(result.rows[record.row], mean_mgal)) +
+                     averaged_text(result.rows[record.row], value.curve_mean.value())) +
                       as_published("11"),
                   print.small_mm()};
     Panel& panel = figure.panels.emplace_back();
-    const reading::SurveyRow& row = result.rows[record.row].row;
     const double used_min = result::used_minutes(result.rows[record.row]).value_or(0.0);
     panel.note = tr("{}, {} of {} min", short_label(reading), fixed(used_min, 1),
                     fixed(length_min(value), 1));
@@ -123,16 +128,18 @@ Figure reading_figure(const model::SurveyCorrection& result, const ReadingRecord
         const double x = minutes_in(value, limit);
         panel.lines.push_back({{x, 0.0, true}, {x, 1.0, true}});
     }
-    const auto column = [&](int number) { return std::vector<Column>{{1}, {number, -mean_mgal}}; };
+    const std::string means =
+        fmt::format("minus {:.3f} mGal and {:.5f} degC", mean_mgal, row.temperature.value());
     const std::string series =
-        figure.add("minutes acceleration_mgal trend_mgal temperature_degc", series_lines(value));
-    panel.series = {{Look::thin_line, Colour::raw_grey, "2 s series", column(2), series},
-                    {Look::strong_line, Colour::blue, "trend", column(3), series}};
-    const std::string ends =
-        figure.add("limits of the interval: minutes trend_mgal", trend_lines(value, limits));
-    figure.plot("extrema of the trend: minutes trend_mgal", trend_lines(value, extrema),
-                {Look::open_diamonds, Colour::blue, "extrema", column(2)});
-    panel.series.push_back({Look::diamonds, Colour::vermilion, "interval", column(2), ends});
+        figure.add(means + ": minutes acceleration_mgal trend_mgal temperature_degc time_utc",
+                   series_lines(value, row));
+    panel.series = {{Look::thin_line, Colour::raw_grey, "2 s series", {1, 2}, series},
+                    {Look::strong_line, Colour::blue, "trend", {1, 3}, series}};
+    const std::string ends = figure.add("limits of the interval: minutes trend_mgal",
+                                        trend_lines(value, mean_mgal, limits));
+    figure.plot("extrema of the trend: minutes trend_mgal", trend_lines(value, mean_mgal, extrema),
+                {Look::open_diamonds, Colour::blue, "extrema"});
+    panel.series.push_back({Look::diamonds, Colour::vermilion, "interval", {1, 2}, ends});
     return figure;
 }
 
@@ -211,7 +218,7 @@ std::vector<Figure> panel_figures(const model::SurveyCorrection& result,
             const Series samples{is_temperature ? Look::line : Look::thin_line,
                                  is_temperature ? Colour::vermilion : Colour::blue,
                                  "",
-                                 {{1}, {is_temperature ? 4 : 2, -centre}},
+                                 {1, is_temperature ? 4 : 2},
                                  source_of(reading_figure_name(record.row), 0)};
             Panel& panel = figure.panels.emplace_back(Panel{minutes, y, {samples}});
             panel.height_mm = print.is_narrow() ? 15.0 : 18.0;

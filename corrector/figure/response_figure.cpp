@@ -87,15 +87,15 @@ Figure response_figure(const long_record::RecordResult& result, const Print& pri
     const std::string fit =
         figure.add("two-path fit: period_s gain low high phase_deg low high", lines);
 
-    const auto plot = [&](const std::string& source, std::vector<Column> columns, Look look,
+    const auto plot = [&](const std::string& source, std::vector<int> columns, Look look,
                           Colour colour, const std::string& label) {
         gain.series.push_back({look, colour, label, columns, source});
-        for (Column& column : columns) column.number += column.number > 1 ? 3 : 0;
+        for (int& column : columns) column += column > 1 ? 3 : 0;
         phase.series.push_back({look, colour, "", columns, source});
     };
-    const std::vector<Column> all{{1}, {2}, {3}, {4}};
-    plot(fit, {{1}, {3}, {4}}, Look::area, Colour::limits, "");
-    plot(fit, {{1}, {2}}, Look::line, Colour::grey, tr("two-path fit"));
+    const std::vector<int> all{1, 2, 3, 4};
+    plot(fit, {1, 3, 4}, Look::area, Colour::limits, "");
+    plot(fit, {1, 2}, Look::line, Colour::grey, tr("two-path fit"));
     plot(by_spectrum, all, Look::discs_with_bars, Colour::blue, tr("by spectrum"));
     plot(by_modes, all, Look::circles_with_bars, Colour::vermilion, tr("by modes"));
     figure.panels = {gain, phase};

@@ -35,7 +35,7 @@ void plot_rows(Figure& figure, const model::SurveyCorrection& result, const std:
 void add_bars(Panel& panel) {
     std::vector<Series> bars;
     for (const Series& marks : panel.series)
-        bars.push_back({Look::bars, Colour::bar_grey, "", {{1}, {2}, {3}}, marks.source});
+        bars.push_back({Look::bars, Colour::bar_grey, "", {1, 2, 3}, marks.source});
     panel.series.insert(panel.series.begin(), bars.begin(), bars.end());
 }
 

@@ -20,6 +20,8 @@ using text::tr;
 struct Point {
     double x, y;
     std::optional<MilliGal> u_y = {};
+
+    [[nodiscard]] bool is_finite() const { return std::isfinite(x) && std::isfinite(y); }
 };
 using PointOf = std::function<Point(const model::CorrectedRow&)>;
 
@@ -41,17 +43,15 @@ Figure scatter(const std::string& name, const std::string& x_label, const std::s
     return figure;
 }
 
-/// Counts an axis from a whole 1000, which its label then says, if its numbers have six digits.
-/// @param column  of the axis in the data, from 1.
-void shorten(Panel& panel, Axis& axis, int column, const std::vector<double>& values) {
+/// Returns a whole 1000 from which an axis counts, which its label then says, if its numbers have six
+/// digits; else 0.
+double origin_of(Axis& axis, const std::vector<double>& values) {
     constexpr double kSixDigits = 1e5, kOffset = 1e3;
     const auto [least, greatest] = std::ranges::minmax(values);
-    if (least < kSixDigits || greatest - least > 10.0 * kOffset) return;
-    const double offset = kOffset * std::floor(least / kOffset);
-    axis.label.insert(axis.label.rfind(" ("), fmt::format(" - {}", text::fixed(offset, 0)));
-    for (Series& series : panel.series)
-        for (Column& one : series.columns)
-            if (one.number == column) one.plus -= offset;
+    if (least < kSixDigits || greatest - least > 10.0 * kOffset) return 0.0;
+    const double origin = kOffset * std::floor(least / kOffset);
+    axis.label.insert(axis.label.rfind(" ("), fmt::format(" - {}", text::fixed(origin, 0)));
+    return origin;
 }
 
 /// Adds the points of the rows and their least-squares line.
@@ -59,9 +59,9 @@ std::optional<Figure> with_rows(Figure figure, const model::SurveyCorrection& re
                                 const std::string& columns, const PointOf& point_of) {
     std::vector<double> all_x, all_y, x, y;  // of all points, and of those in the fit
     bool has_bars = false;
-    plot_rows(figure, result, columns, [&](const model::CorrectedRow& row) -> std::string {
+    for (const model::CorrectedRow& row : result.rows) {
         const Point point = point_of(row);
-        if (!std::isfinite(point.x) || !std::isfinite(point.y)) return {};
+        if (!point.is_finite()) continue;
         all_x.push_back(point.x);
         all_y.push_back(point.y);
         if (row.is_used) {
@@ -69,24 +69,28 @@ std::optional<Figure> with_rows(Figure figure, const model::SurveyCorrection& re
             y.push_back(point.y);
         }
         has_bars = has_bars || point.u_y;
-        return data_line("444", {point.x, point.y, point.u_y.value_or(MilliGal(0.0)).value()}, "");
+    }
+    if (all_x.empty()) return std::nullopt;
+    Panel& panel = figure.panels.front();
+    const double x_0 = origin_of(panel.x, all_x), y_0 = origin_of(panel.y, all_y);
+    plot_rows(figure, result, columns, [&](const model::CorrectedRow& row) -> std::string {
+        const Point point = point_of(row);
+        if (!point.is_finite()) return {};
+        return data_line(
+            "444", {point.x - x_0, point.y - y_0, point.u_y.value_or(MilliGal(0.0)).value()}, "");
     });
-    if (has_bars) add_bars(figure.panels.front());
-    if (figure.data.empty()) return std::nullopt;
+    if (has_bars) add_bars(panel);
     if (x.size() >= 3 && std::ranges::min(x) < std::ranges::max(x)) {
         const auto fit = signal::fit_line(x, y);
         std::string ends;
         for (const double end : {std::ranges::min(all_x), std::ranges::max(all_x)})
-            ends += data_line("44", {end, fit.mean_y + fit.slope * (end - fit.mean_x)});
+            ends += data_line("44", {end - x_0, fit.mean_y + fit.slope * (end - fit.mean_x) - y_0});
         figure.plot(
             "line through those in the fit: " + columns, ends,
             {.look = Look::line,
              .colour = Colour::grey,
              .label = tr("slope {}, R² = {}", text::fixed(fit.slope, 4), text::fixed(fit.r2, 4))});
     }
-    Panel& panel = figure.panels.front();
-    shorten(panel, panel.x, 1, all_x);
-    shorten(panel, panel.y, 2, all_y);
     return figure;
 }
 
@@ -156,7 +160,7 @@ std::optional<Figure> side_by_side_figure(const model::SurveyCorrection& result,
             "# " + clean_utf8(station.site) + '\n');
     figure.panels.front().series = {{.look = Look::line, .colour = Colour::grey, .source = kZero}};
     figure.plot("stations: theirs_mgal difference_mgal u_ours_mgal", lines,
-                {Look::discs_with_bars, Colour::blue, tr("stations, u"), {{1}, {2}, {3}}});
+                {Look::discs_with_bars, Colour::blue, tr("stations, u"), {1, 2, 3}});
     return figure;
 }
 

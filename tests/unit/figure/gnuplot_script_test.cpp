@@ -48,20 +48,16 @@ TEST_CASE("a script has only the settings that differ from the panel before", "[
     CHECK(figure.data == "# hours mgal\n1 1\n\n\n# hours mgal\n1 1\n");
 }
 
-TEST_CASE("columns are shifted and scaled, and a source without data is not plotted",
+TEST_CASE("columns are named by number, and a source without data is not plotted",
           "[report][script]") {
     Figure figure{"f"};
-    figure.panels.emplace_back().series = {{.source = ""},
-                                           {Look::area,
-                                            Colour::limits,
-                                            "",
-                                            {{1, 5.0, 60.0}, {2, -0.25}, {3, 0.0, 2.0}},
-                                            source_of("other", 3)},
-                                           {.colour = Colour::grey, .source = kZero}};
-    CHECK_THAT(body_of(figure),
-               StartsWith("plot 'other.dat' index 3 using ($1*60+5):($2-0.25):($3*2+0) with "
-                          "filledcurves lc rgb '#e4e4e4' notitle, \\\n"
-                          "     0 with lines lw 1.5 lc rgb '#888888' notitle\n"));
+    figure.panels.emplace_back().series = {
+        {.source = ""},
+        {Look::area, Colour::limits, "", {1, 4, 3}, source_of("other", 3)},
+        {.colour = Colour::grey, .source = kZero}};
+    CHECK_THAT(body_of(figure), StartsWith("plot 'other.dat' index 3 using 1:4:3 with "
+                                           "filledcurves lc rgb '#e4e4e4' notitle, \\\n"
+                                           "     0 with lines lw 1.5 lc rgb '#888888' notitle\n"));
 }
 
 TEST_CASE("a panel has a right axis, colours by value and room beside the data if it says so",
