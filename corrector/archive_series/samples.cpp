@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <system_error>
+#include <utility>
 
 #include "corrector/archive_series/on_all_cores.hpp"
 #include "protocol/archive/channel_code.hpp"
@@ -15,14 +16,29 @@
 
 namespace a351::corrector::archive_series {
 
+namespace {
+
+/// Returns the memory of the longest segment.
+std::vector<std::int32_t> memory_of(archive::ChannelData& channel) {
+    const auto longest = std::ranges::max_element(
+        channel.segments, {},
+        [](const archive::Segment& segment) { return segment.counts.capacity(); });
+    return longest == channel.segments.end() ? std::vector<std::int32_t>()
+                                             : std::move(longest->counts);
+}
+
+}  // namespace
+
 std::vector<archive::ChannelData> read_samples(const std::filesystem::path& root,
-                                               const Epoch& epoch, const Span& span) {
-    std::vector<archive::ChannelData> samples(epoch.channels.size());
-    on_all_cores(samples.size(), [&](std::size_t k) {
-        samples[k] = archive::read_channel(root / "archive", epoch.codes, epoch.channels[k].code,
-                                           span.from(k), span.to, epoch.channels[k].rate_hz);
+                                               const Epoch& epoch, const Span& span,
+                                               std::vector<archive::ChannelData> earlier) {
+    earlier.resize(epoch.channels.size());
+    on_all_cores(earlier.size(), [&](std::size_t k) {
+        earlier[k] = archive::read_channel(root / "archive", epoch.codes, epoch.channels[k].code,
+                                           span.from(k), span.to, epoch.channels[k].rate_hz,
+                                           memory_of(earlier[k]));
     });
-    return samples;
+    return earlier;
 }
 
 std::vector<std::filesystem::path> files_of(const std::filesystem::path& root, const Epoch& epoch,

@@ -31,7 +31,7 @@ using std::chrono::days;
 
 constexpr std::size_t kChannels = kTemperature + 1;
 constexpr std::size_t kLeading = archive_series::kVertical;  // its gaps divide the record
-constexpr double kSameRate = 1e-3;            // relative; ten times the error of a sensor's clock
+constexpr double kSameRate = 1e-3;  // relative; ten times the error of a sensor's clock
 
 /// The samples of a day, or of an epoch's part of it.
 using DayOfChannels = std::vector<archive::ChannelData>;
@@ -252,6 +252,7 @@ LongRecord read_archive_record(const std::filesystem::path& root, const RecordWi
     std::vector<archive_series::MinuteTemperature> outer;
     bool has_outer = false;
     text::Message rate_remark;
+    DayOfChannels samples;
     std::size_t done = 0;
     for (const UtcTime day : of_days) {
         for (std::size_t e = 0; e < epochs.size(); ++e) {
@@ -261,8 +262,8 @@ LongRecord read_archive_record(const std::filesystem::path& root, const RecordWi
             const UtcTime to = std::min(
                 {day + days(1), end, e + 1 < epochs.size() ? epochs[e + 1].start : UtcTime::max()});
             if (from >= to) continue;
-            const DayOfChannels samples =
-                archive_series::read_samples(root, epoch, {from, from, to});
+            samples =
+                archive_series::read_samples(root, epoch, {from, from, to}, std::move(samples));
             for (std::size_t k = 0; k < kChannels; ++k)
                 archive_series::add_damage(record.warnings, samples[k]);
             if (rate_remark.empty()) {

@@ -236,17 +236,16 @@ bool ArchiveStreams::fill(const std::string& name, Stream& stream, sys_days day)
         }
         const std::uint64_t count = bytes.size();
         std::size_t begin = 0;
-        for (std::size_t at = 0; const auto found = archive::next_record(bytes, stream.channel, at);
-             begin = at) {
+        for (const auto& [start, found] : archive::find_records(bytes, stream.channel)) {
+            if (start > begin) damage_.push_back({path, file.read_to + begin, start - begin});
+            begin = start + kRecordSize;
             Record record{name,
                           {},
-                          {found->header.sequence, found->header.start, found->last_sample()},
-                          file.read_to + at};
-            const std::size_t start = at - kRecordSize;
-            if (start > begin) damage_.push_back({path, file.read_to + begin, start - begin});
-            if (const auto& codes = stream.codes; found->header.network != codes.network ||
-                                                  found->header.station != codes.station ||
-                                                  found->header.location != codes.location) {
+                          {found.header.sequence, found.header.start, found.last_sample()},
+                          file.read_to + begin};
+            if (const auto& codes = stream.codes; found.header.network != codes.network ||
+                                                  found.header.station != codes.station ||
+                                                  found.header.location != codes.location) {
                 damage_.push_back({path, file.read_to + start, kRecordSize, true});
                 continue;
             }

@@ -10,6 +10,7 @@
 #include <set>
 #include <utility>
 
+#include "protocol/archive/record_file.hpp"
 #include "protocol/archive/record_joiner.hpp"
 #include "protocol/archive/sds.hpp"
 #include "protocol/files/file_bytes.hpp"
@@ -28,47 +29,22 @@ bool continues(const ChannelData& data, UtcTime start, double rate_hz) {
            from_seconds(0.5 / rate_hz);
 }
 
-/// The records of a day file, from its begin.  The file is read in pieces: a whole one of a day at 50 Hz
-/// costs more time in new pages of memory than its records need to be decoded.
-class RecordFile {
+/// The records of a day file so far, to find those that are there twice.
+class RecordsSeen {
 public:
-    RecordFile(const fs::path& file, const std::string& channel)
-        : file_(file), channel_(channel), size_(fs::file_size(file)) {}
+    explicit RecordsSeen(const fs::path& file) : file_(file) {}
 
-    [[nodiscard]] std::uintmax_t size() const { return size_; }
-
-    /// Returns the offset after the record that next() returned; the size after its last call.
-    [[nodiscard]] std::uint64_t offset() const { return offset_; }
-
-    /// Returns the next record of the channel; std::nullopt: there is none.
-    std::optional<DecodedRecord> next() {
-        while (true) {
-            std::size_t at = offset_ - piece_at_;
-            auto record = next_record(piece_, channel_, at);
-            const std::uint64_t piece_end = piece_at_ + piece_.size();
-            if (record || piece_end == size_) {
-                offset_ = piece_at_ + at;
-                return record;
-            }
-            // The last bytes may be the begin of a record.
-            if (piece_end >= offset_ + kRecordSize) offset_ = piece_end - kRecordSize + 1;
-            piece_at_ = offset_;
-            piece_ = files::read_bytes(file_, offset_, std::min(kPieceSize, size_ - offset_));
-        }
-    }
-
-    /// Returns false if the record before offset() is there twice, maybe with another number.
-    [[nodiscard]] bool is_new(UtcTime start) {
+    /// Returns false if the record at `offset` was seen before, maybe with another number.
+    [[nodiscard]] bool is_new(UtcTime start, std::uint64_t offset) {
         constexpr std::size_t kNumber = 6;  // digits of the record's number, which begin it
-        const std::uint64_t begin = offset_ - kRecordSize;
         const auto body = [this](std::uint64_t record) {
             return files::read_bytes(file_, record + kNumber, kRecordSize - kNumber);
         };
         // In a file of one recorder the times ascend, and nothing is compared.
         auto at = std::ranges::lower_bound(seen_, start, {}, &Seen::start);
         for (; at != seen_.end() && at->start == start; ++at)
-            if (body(at->offset) == body(begin)) return false;
-        seen_.insert(at, {start, begin});
+            if (body(at->offset) == body(offset)) return false;
+        seen_.insert(at, {start, offset});
         return true;
     }
 
@@ -77,14 +53,7 @@ private:
         UtcTime start;
         std::uint64_t offset = 0;
     };
-    static constexpr std::uintmax_t kPieceSize = 1U << 18U;
-
-    fs::path file_;
-    std::string channel_;
-    std::uintmax_t size_;
-    std::uint64_t offset_ = 0;
-    std::uint64_t piece_at_ = 0;  ///< Offset of `piece_` in the file.
-    std::vector<std::byte> piece_;
+    const fs::path& file_;
     std::vector<Seen> seen_;  ///< Ascending.
 };
 
@@ -152,7 +121,8 @@ void RecordJoiner::take(const DecodedRecord& record) {
     std::size_t last = count;
     while (last > first && time_of(last - 1) >= to_) --last;
     if (first == last) return;
-    if (!continues(data_, start, rate_hz)) data_.segments.push_back({rate_hz, {}, {}});
+    if (!continues(data_, start, rate_hz))
+        data_.segments.push_back({rate_hz, std::exchange(memory_, {}), {}});
     Segment& segment = data_.segments.back();
     segment.anchors.push_back({segment.counts.size(), time_of(first),
                                record.header.is_time_questionable,
@@ -183,27 +153,29 @@ std::string to_text(const Damage& damage) {
 namespace {
 
 /// Reads the records of a channel.
-/// @param wrong  for RecordJoiner.
+/// @param wrong, memory  for RecordJoiner.
 ChannelData read_records(const fs::path& archive, const journal::StationCodes& codes,
                          const std::string& channel, UtcTime from, UtcTime to,
-                         const std::optional<RateConflict>& wrong) {
+                         const std::optional<RateConflict>& wrong,
+                         std::vector<std::int32_t> memory = {}) {
     ChannelData data;
     if (from >= to) return data;
-    RecordJoiner joiner(data, from, to, wrong);
+    RecordJoiner joiner(data, from, to, wrong, std::move(memory));
     for (const auto& file :
          day_files(archive, codes, channel, from, to)) {  // no record crosses midnight
         RecordFile records(file, channel);
+        RecordsSeen seen(file);
         joiner.expect(records.size() / kRecordSize);
         while (true) {
-            const std::uint64_t unread = records.offset();
-            const auto record = records.next();
-            const std::uint64_t found = records.offset() - (record ? kRecordSize : 0);
-            if (found > unread) data.damage.push_back({file, unread, found - unread});
-            if (!record) break;
-            if (!is_of(codes, record->header))
-                data.damage.push_back({file, found, kRecordSize, true});
-            else if (records.is_new(record->header.start))
-                joiner.take(*record);
+            const auto found = records.next();
+            if (records.skipped() > 0)
+                data.damage.push_back({file, records.skipped_at(), records.skipped()});
+            if (!found) break;
+            const auto& [offset, record] = *found;
+            if (!is_of(codes, record.header))
+                data.damage.push_back({file, offset, kRecordSize, true});
+            else if (seen.is_new(record.header.start, offset))
+                joiner.take(record);
         }
     }
     std::ranges::stable_sort(data.segments, {},
@@ -215,8 +187,8 @@ ChannelData read_records(const fs::path& archive, const journal::StationCodes& c
 
 ChannelData read_channel(const fs::path& archive, const journal::StationCodes& codes,
                          const std::string& channel, UtcTime from, UtcTime to,
-                         std::optional<double> metadata_hz) {
-    ChannelData data = read_records(archive, codes, channel, from, to, {});
+                         std::optional<double> metadata_hz, std::vector<std::int32_t> memory) {
+    ChannelData data = read_records(archive, codes, channel, from, to, {}, std::move(memory));
     if (!metadata_hz) return data;
     const auto conflict = rate_conflict(data.segments, channel, *metadata_hz);
     if (conflict && conflict->used_hz == *metadata_hz)

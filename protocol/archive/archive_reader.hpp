@@ -108,11 +108,13 @@ struct ChannelData {
 /// @param channel  channel code, e.g. BNZ; records of another channel in its files are damage.
 /// @param metadata_hz  rate of the metadata, if it is known.  If headers have another one by more than
 ///                     0.1 %, the starts of the records decide which is used.
+/// @param memory   for the first segment, instead of new memory; what is in it is lost.
 /// @throws std::system_error  a file cannot be read.
 [[nodiscard]] ChannelData read_channel(const std::filesystem::path& archive,
                                        const journal::StationCodes& codes,
                                        const std::string& channel, UtcTime from, UtcTime to,
-                                       std::optional<double> metadata_hz = {});
+                                       std::optional<double> metadata_hz = {},
+                                       std::vector<std::int32_t> memory = {});
 
 /// Returns the day files in [from, to) that some of these channels have and others lack, in order of
 /// time: they were lost, as by a copy that is not complete.

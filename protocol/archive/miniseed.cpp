@@ -296,9 +296,11 @@ PackedRecord pack_record(const RecordHeader& header, std::span<const std::int32_
     return packed;
 }
 
-std::optional<DecodedRecord> decode_record(std::span<const std::byte> bytes) {
-    if (bytes.size() != kRecordSize || !is_layout_ours(bytes)) return std::nullopt;
-    const auto lock = lock_libmseed();
+namespace {
+
+/// Decodes the bytes of a record, whose layout is ours.
+std::optional<DecodedRecord> decode(std::span<const std::byte> bytes,
+                                    const std::unique_lock<std::mutex>& /*libmseed*/) {
     std::array<char, kRecordSize> copy{};
     std::memcpy(copy.data(), bytes.data(), kRecordSize);
     MSRecord* parsed = nullptr;
@@ -318,16 +320,26 @@ std::optional<DecodedRecord> decode_record(std::span<const std::byte> bytes) {
     return decoded;
 }
 
-std::optional<DecodedRecord> next_record(std::span<const std::byte> bytes,
-                                         const std::string& channel, std::size_t& at) {
-    for (; at < bytes.size(); ++at) {
-        const auto rest = bytes.subspan(at);
-        auto record = decode_record(rest.first(std::min(rest.size(), kRecordSize)));
-        if (!record || record->header.channel != channel) continue;
-        at += kRecordSize;
-        return record;
+}  // namespace
+
+std::optional<DecodedRecord> decode_record(std::span<const std::byte> bytes) {
+    if (bytes.size() != kRecordSize || !is_layout_ours(bytes)) return std::nullopt;
+    return decode(bytes, lock_libmseed());
+}
+
+std::vector<FoundRecord> find_records(std::span<const std::byte> bytes,
+                                      const std::string& channel) {
+    std::vector<FoundRecord> found;
+    // Locked once: to lock each record costs two threads a tenth of the time of reading a day.
+    const auto lock = lock_libmseed();
+    for (std::size_t at = 0; at + kRecordSize <= bytes.size();) {
+        const auto candidate = bytes.subspan(at, kRecordSize);
+        auto record = is_layout_ours(candidate) ? decode(candidate, lock) : std::nullopt;
+        const bool is_found = record && record->header.channel == channel;
+        if (is_found) found.push_back({at, std::move(*record)});
+        at += is_found ? kRecordSize : 1;
     }
-    return std::nullopt;
+    return found;
 }
 
 double DecodedRecord::rate_hz() const {

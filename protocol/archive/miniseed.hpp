@@ -99,15 +99,20 @@ struct DecodedRecord {
 /// @return std::nullopt unless the bytes are one whole valid record of kRecordSize.
 [[nodiscard]] std::optional<DecodedRecord> decode_record(std::span<const std::byte> bytes);
 
-/// Finds the next record of a channel.  Every offset is tried, because stray bytes may have shifted
-/// all later records.
+/// A record among other bytes.
+struct FoundRecord {
+    std::uint64_t offset = 0;  ///< Its first byte.
+    DecodedRecord record;
+};
+
+/// Finds the records of a channel.  Every offset is tried, because stray bytes may have shifted all
+/// later records.
 ///
 /// Most offsets are refused by a look at the header, so the cost is O(bytes) also for damaged
 /// files.
 /// @param channel  channel code; records of other channels are skipped.
-/// @param at  where to begin; afterwards the end of the record, or of the bytes if there is none.
-[[nodiscard]] std::optional<DecodedRecord> next_record(std::span<const std::byte> bytes,
-                                                       const std::string& channel, std::size_t& at);
+[[nodiscard]] std::vector<FoundRecord> find_records(std::span<const std::byte> bytes,
+                                                    const std::string& channel);
 
 /// Returns the timing quality in percent: 100 for an uncertainty up to 1 ms, then 20 less per
 /// decade (20 at 10 s, 0 from 100 s on).  The result is rounded to 1 %.

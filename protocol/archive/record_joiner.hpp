@@ -14,9 +14,12 @@ public:
     /// @param data      receives the samples; must outlive this.
     /// @param from, to  samples outside [from, to) are left out.
     /// @param wrong     records with its header_hz have its used_hz instead.
+    /// @param memory    of the first segment; what is in it is lost.
     RecordJoiner(ChannelData& data, UtcTime from, UtcTime to,
-                 std::optional<RateConflict> wrong = {})
-        : data_(data), from_(from), to_(to), wrong_(std::move(wrong)) {}
+                 std::optional<RateConflict> wrong = {}, std::vector<std::int32_t> memory = {})
+        : data_(data), from_(from), to_(to), wrong_(std::move(wrong)), memory_(std::move(memory)) {
+        memory_.clear();
+    }
 
     /// Reserves space for the samples of a file with so many records, when its first record is added.
     /// A segment of a day that grows without this is copied again and again.
@@ -29,6 +32,7 @@ private:
     ChannelData& data_;
     UtcTime from_, to_;
     std::optional<RateConflict> wrong_;
+    std::vector<std::int32_t> memory_;
     std::size_t expected_ = 0;  ///< Records for which no space is reserved yet.
 };
 

@@ -6,9 +6,8 @@
 #include <cmath>
 #include <fstream>
 
-#include "protocol/archive/miniseed.hpp"
+#include "protocol/archive/record_file.hpp"
 #include "protocol/core/input_error.hpp"
-#include "protocol/files/file_bytes.hpp"
 
 namespace a351::sim::replay {
 namespace {
@@ -89,29 +88,28 @@ private:
         sample_ = 0;
         record_.samples.clear();
         while (record_.samples.empty()) {
-            if (offset_ == bytes_.size()) {
+            if (!records_) {
                 if (file_ == files_.size()) return;
-                path_ = files_[file_++].path;
-                bytes_ = files::read_bytes(path_);
-                offset_ = 0;
+                records_.emplace(files_[file_].path, name_);
             }
-            const std::size_t from = offset_;
-            auto record = archive::next_record(bytes_, name_, offset_);
-            const std::size_t found = record ? offset_ - archive::kRecordSize : offset_;
-            if (found > from) {
-                damage_.push_back({path_, from, found - from, "no record of " + name_});
+            auto found = records_->next();
+            if (records_->skipped() > 0)
+                damage_.push_back({files_[file_].path, records_->skipped_at(), records_->skipped(),
+                                   "no record of " + name_});
+            if (found) {
+                record_ = std::move(found->record);
+            } else {
+                records_.reset();
+                ++file_;
             }
-            if (record) record_ = std::move(*record);
         }
     }
 
     std::string name_;
     std::vector<RecordingDamage>& damage_;
     std::vector<File> files_;
-    std::size_t file_ = 0;  ///< Index of the next file.
-    fs::path path_;
-    std::vector<std::byte> bytes_;
-    std::size_t offset_ = 0;
+    std::size_t file_ = 0;  ///< Index of the file that is read.
+    std::optional<archive::RecordFile> records_;
     archive::DecodedRecord record_;
     std::size_t sample_ = 0;
 };

@@ -75,7 +75,7 @@ TEST_CASE("records of another station in a day file are damage, and are named as
 TEST_CASE(
     "a day file longer than a piece is read like a short one, with damage at the end of a piece",
     "[record][archive_reader]") {
-    constexpr std::size_t kPiece = 1U << 18U;
+    constexpr std::size_t kPiece = 1U << 16U;
     constexpr std::size_t kRecords = kPiece / kRecordSize + 40;
     Archive archive;
     for (std::size_t i = 0; i < kRecords; ++i)
