@@ -46,14 +46,14 @@ def works(scratch, hours):
     survey = ["survey", day / "survey.toml", "--out"]
     return {
         "survey day, t-rate-drift, no figures": ([*survey, scratch / "a", "--model", "t-rate-drift"], plain),
-        "survey day, auto, no figures": ([*survey, scratch / "b", "--model", "auto"], plain),
+        "survey day, t-rate-drift, report and figures": ([*survey, scratch / "b", "--model", "t-rate-drift"], {}),
         "survey day, auto, report and figures": ([*survey, scratch / "c", "--model", "auto"], {}),
         f"record of {hours:g} h at 50 Hz, page and figures": (["record", week, "--out", scratch / "d"], {}),
     }
 
 
 def require_results(scratch, hours):
-    for name, model, drawn in (("a", "t-rate-drift", False), ("b", "day", False), ("c", "day", True)):
+    for name, model, drawn in (("a", "t-rate-drift", False), ("b", "t-rate-drift", True), ("c", "day", True)):
         result = read_json(scratch / name / "result.json")
         if (result["model"], len(rows(scratch / name / "occupations.csv")), "<svg" in (scratch / name / "report.html").read_text()) != \
                 (model, READINGS, drawn):
