@@ -84,6 +84,18 @@ Line day(const std::vector<double>& scales) {
     return line;
 }
 
+/// The scale of M0 is off by 8e-4.  The reference of B says, with 0.02 mGal in 151, which of the meters
+/// is right.
+Line two_meters_of_which_one_is_off() {
+    Line two = day({1.0008, 1.0});
+    for (reading::SurveyRow& row : two.rows) {
+        if (row.site != "A" && row.site != "B") continue;
+        row.reference = MilliGal(980000.0 - (row.site == "B" ? 151.2 : 0.0));
+        row.u_reference = MilliGal(row.site == "B" ? 0.02 : 0.001);
+    }
+    return two;
+}
+
 std::vector<Finding> mistakes(const model::SurveyCorrection& result) {
     std::vector<Finding> list;
     for (const Finding& finding : result.findings)
@@ -107,13 +119,7 @@ TEST_CASE("meters whose scales differ by more than their prior are named, and no
 }
 
 TEST_CASE("a scale that another one, which is held, pushes away is named too", "[judgement][scale]") {
-    // The reference of B says, with 0.02 mGal in 151, which of the meters is right.
-    Line two = day({1.0008, 1.0});
-    for (reading::SurveyRow& row : two.rows) {
-        if (row.site != "A" && row.site != "B") continue;
-        row.reference = MilliGal(980000.0 - (row.site == "B" ? 151.2 : 0.0));
-        row.u_reference = MilliGal(row.site == "B" ? 0.02 : 0.001);
-    }
+    const Line two = two_meters_of_which_one_is_off();
     const auto result = two.corrected(adjustment::Prior{1.0, 1e-4});
     const auto found = mistakes(result);
     REQUIRE(found.size() == 2);
@@ -132,6 +138,14 @@ TEST_CASE("a scale that another one, which is held, pushes away is named too", "
     CHECK(own.scales.at(1).value == Approx(1.0).epsilon(0).margin(1e-4));
     for (const text::Message& remark : own.remarks)
         CHECK_THAT(remark.english(), !ContainsSubstring("does not use"));
+}
+
+TEST_CASE("no further scale is held while a mistake may be what pushes it away", "[judgement][scale]") {
+    Line two = two_meters_of_which_one_is_off();
+    two.step(10, "M1", 0.4);
+    const auto found = mistakes(two.corrected(adjustment::Prior{1.0, 1e-4}));
+    CHECK(std::ranges::count(found, FindingKind::step, &Finding::kind) == 1);
+    CHECK(std::ranges::count(found, FindingKind::scale, &Finding::kind) == 1);
 }
 
 TEST_CASE("a step is named with the uncertainty that the scale gives it, and the scale is not",
