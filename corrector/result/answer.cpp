@@ -22,6 +22,10 @@ std::string grade_in_words(Grade grade) {
     return std::string(text::translated(judgement::grade_name(grade), text::language()));
 }
 
+/// Greatest coverage factor for 95 % with which u says something: that of five degrees of freedom.
+/// With one it is 12.7, and u can be a tenth of the error.
+constexpr double kMostCoverage = 2.58;
+
 /// Returns u of the stations in ascending order.
 std::vector<double> uncertainties(const model::SurveyCorrection& result) {
     std::vector<double> values;
@@ -31,23 +35,45 @@ std::vector<double> uncertainties(const model::SurveyCorrection& result) {
     return values;
 }
 
+bool is_u_known(const model::SurveyCorrection& result) {
+    return std::ranges::none_of(result.stations, [](const model::StationValue& station) {
+        return station.coverage_factor > kMostCoverage;
+    });
+}
+
 std::string counted_stations(const model::SurveyCorrection& result) {
     const std::size_t count = result.stations.size();
     return count == 1 ? tr("One station") : tr("{} stations", count);
 }
 
+/// Fewest known stations whose error, each left out, is the error to expect.  Reason: the rms of five
+/// errors is known to a third, that of two to a half.
+constexpr std::ptrdiff_t kFewestLeftOut = 5;
+
+bool is_left_out(const model::StationValue& station) {
+    return station.left_out && station.reference;
+}
+
 std::string accuracy(const model::SurveyCorrection& result) {
     const std::string stations = counted_stations(result);
-    if (const auto loso = result.score.loso_mgal)
+    const auto loso = result.score.loso_mgal;
+    const std::string error = loso ? text::fixed(*loso, decimals_for(loso)) : "";
+    const auto left_out = std::ranges::count_if(result.stations, is_left_out);
+    if (loso && left_out >= kFewestLeftOut)
         return tr("{}; a new one is known to +- {} mGal (each known station left out).", stations,
-                  text::fixed(*loso, decimals_for(loso)));
+                  error);
     const std::vector<double> u = uncertainties(result);
-    if (u.empty())
+    if (u.empty() || !is_u_known(result))
         return tr("{}; this model and these readings do not show how well a new one is known.",
                   stations);
     const int decimals = decimals_of(result);
-    return tr("{}; u is {} to {} mGal, not tested: no known station can be left out.", stations,
-              text::fixed(u.front(), decimals), text::fixed(u.back(), decimals));
+    const std::string least = text::fixed(u.front(), decimals),
+                      most = text::fixed(u.back(), decimals);
+    return loso ? tr("{}; u is {} to {} mGal. Only {} known stations could be left out to test it: "
+                     "they are off by {} mGal rms.",
+                     stations, least, most, left_out, error)
+                : tr("{}; u is {} to {} mGal, not tested: no known station can be left out.",
+                     stations, least, most);
 }
 
 std::string listed(const reading::LeftOut& stay) {
@@ -56,17 +82,15 @@ std::string listed(const reading::LeftOut& stay) {
 
 /// Returns the difference from the reference that the first table shows.
 Column<model::StationValue> difference_column(const model::SurveyCorrection& result) {
-    const bool is_left_out = std::ranges::any_of(
-        result.stations,
-        [](const model::StationValue& station) { return station.left_out && station.reference; });
-    const auto difference = [is_left_out](const model::StationValue& station) {
-        const auto& value = is_left_out ? station.left_out : std::optional(station.gravity);
+    const bool is_any_left_out = std::ranges::any_of(result.stations, is_left_out);
+    const auto difference = [is_any_left_out](const model::StationValue& station) {
+        const auto& value = is_any_left_out ? station.left_out : std::optional(station.gravity);
         return value && station.reference ? cell(*value - *station.reference) : Cell();
     };
     return {"difference_mgal",
             difference,
-            {is_left_out ? text::marked("Measured - reference, left out")
-                         : text::marked("Gravity - reference, in sample")}};
+            {is_any_left_out ? text::marked("Measured - reference, left out")
+                             : text::marked("Gravity - reference, in sample")}};
 }
 
 }  // namespace

@@ -44,15 +44,26 @@ TEST_CASE(
     "the answer gives the error of a station left out, and says so if nothing is to be repeated",
     "[result][answer]") {
     SurveyCorrection result = scattered_day();
+    for (StationValue& station : result.stations) {
+        station.left_out = station.reference;
+        station.u_gravity = MilliGal(1.5);
+    }
     result.score.loso_mgal = 1.68;
     CHECK(answer(result, all_good(result)) ==
           "8 stations; a new one is known to +- 1.7 mGal (each known station left out). Nothing to "
           "repeat.");
+    for (std::size_t k = 4; k < result.stations.size(); ++k) result.stations[k].left_out.reset();
+    CHECK_THAT(answer(result, all_good(result)),
+               StartsWith("8 stations; u is 1.5 to 1.5 mGal. Only 4 known stations could be left "
+                          "out to test it: they are off by 1.7 mGal rms."));
     result.score.loso_mgal.reset();
-    for (StationValue& station : result.stations) station.u_gravity = MilliGal(1.5);
     result.stations.back().u_gravity = MilliGal(2.04);
     CHECK_THAT(answer(result, all_good(result)),
                StartsWith("8 stations; u is 1.5 to 2.0 mGal, not tested"));
+    result.stations.back().coverage_factor = 2.57;  // of five degrees of freedom
+    CHECK_THAT(answer(result, all_good(result)), StartsWith("8 stations; u is"));
+    result.stations.back().coverage_factor = 2.78;  // of four
+    CHECK_THAT(answer(result, all_good(result)), ContainsSubstring("do not show how well"));
     for (StationValue& station : result.stations) station.u_gravity.reset();
     CHECK_THAT(answer(result, all_good(result)), ContainsSubstring("do not show how well"));
     result.stations.resize(1);
