@@ -87,7 +87,9 @@ SetUpPlan set_up_plan(int planned, double length_s, int running, double stay_s, 
     plan.running = running;
     plan.planned = planned;
     const double planned_s = length_s / planned;
-    const double by_clock_s = running > planned ? length_s - stay_s : planned_s - set_up_s;
+    double by_clock_s = running > planned ? 0.0 : planned_s - set_up_s;
+    // The last set-up lasts longer if earlier ones were shorter than planned.
+    if (running >= planned) by_clock_s = std::max(by_clock_s, length_s - stay_s);
     const double by_signal_s = kLeastUsed * planned_s - used_s;
     plan.left_s = std::max({0.0, by_clock_s, by_signal_s});
     plan.is_disturbed = by_signal_s > std::max(0.0, by_clock_s) &&

@@ -123,13 +123,14 @@ std::vector<Stay> walk(const std::string& name, int set_ups, std::uint64_t seed,
     });
 
     std::vector<Stay> stays;
-    UtcTime last_set_up;
+    UtcTime first_set_up, last_set_up;  // of the running stay
     std::size_t said_before = 0;
     const auto obey = [&](const Order& order) {
         status.now = recorder.now;
         log.advance(status, {});
         if (order.kind == Order::Kind::start) {
             said_before = said.size();
+            first_set_up = recorder.now;
             (void)occupations.start(order.site, {}, {});
         } else if (order.kind == Order::Kind::setup) {
             (void)occupations.setup({});
@@ -139,7 +140,10 @@ std::vector<Stay> walk(const std::string& name, int set_ups, std::uint64_t seed,
             for (std::size_t i = said_before; i < said.size(); ++i) {
                 stay.has_look = stay.has_look || said[i].word == survey::Word::look;
                 if (said[i].word == survey::Word::go && !stay.late_s && said[i].utc >= last_set_up)
-                    stay.late_s = seconds_between(last_set_up, said[i].utc) - kPlan_s / set_ups;
+                    stay.late_s = seconds_between(
+                        std::max(last_set_up + from_seconds(kPlan_s / set_ups),
+                                 first_set_up + from_seconds(kPlan_s)),
+                        said[i].utc);
             }
             (void)occupations.stop({}, {});
         }
@@ -208,7 +212,7 @@ int main(int count, char** arguments) {
             }
         }
         const bool is_forgotten = kind.press == Press::forgotten;
-        const auto count = static_cast<std::size_t>(days);
+        const auto mistakes = is_forgotten ? static_cast<std::size_t>(days) : 0;
         std::printf(
             "%s, %d set-ups, faces %s, %s: %zu stays, YOU CAN GO within %.0f s of the plan at %zu, "
             "at most "
@@ -218,7 +222,7 @@ int main(int count, char** arguments) {
             is_forgotten                          ? "one Next set-up forgotten"
             : kind.press == Press::beside_lifting ? "Next set-up beside the lifting"
                                                   : "no mistake",
-            stays, kMostLate_s, in_time, latest_s, looks, named, is_forgotten ? count : 0);
+            stays, kMostLate_s, in_time, latest_s, looks, named, mistakes);
         std::fflush(stdout);
         is_kept = is_kept &&
                   (is_forgotten ? 20 * named >= 19 * static_cast<std::size_t>(days) : looks == 0);

@@ -18,6 +18,8 @@ TEST_CASE("a plan of several set-ups counts each one down", "[signal]") {
                             {2, 1, 360.0, 360.0, 0.0, true, false},
                             {2, 1, 900.0, 900.0, 0.0, true, false},
                             {2, 2, 400.0, 20.0, 340.0, false, false},
+                            {2, 2, 401.0, 360.0, 319.0, false, false},  // the first one had 41 s
+                            {2, 2, 720.0, 679.0, 0.0, false, true},
                             {2, 2, 750.0, 360.0, 0.0, false, true},
                             {2, 3, 700.0, 10.0, 170.0, false, false},
                             {2, 3, 950.0, 200.0, 0.0, false, true},
