@@ -154,7 +154,22 @@ void add_repeats(std::vector<ReadingGrade>& readings, const model::SurveyCorrect
     }
 }
 
+/// Returns a doubt about the whole survey, for which no reading of it can be trusted; empty: none.
+text::Message doubt_of_all(const model::SurveyCorrection& result) {
+    const auto unusable = std::ranges::find(result.findings, reading::FindingKind::unusable_day,
+                                            &reading::Finding::kind);
+    if (unusable != result.findings.end()) return unusable->text;
+    if (scatters_more_than_stated(result))
+        return text::message("the readings scatter more than stated (global test failed)");
+    return {};
+}
+
 }  // namespace
+
+bool scatters_more_than_stated(const model::SurveyCorrection& result) {
+    const auto* const network = result.as<model::NetworkPart>();
+    return network != nullptr && !network->passes_global_test().value_or(true);
+}
 
 std::string reason_text(const ReadingGrade& reading) {
     std::vector<std::string> texts;
@@ -200,6 +215,9 @@ std::vector<ReadingGrade> grade_readings(const model::SurveyCorrection& result) 
         add_samples(reading, row);
     }
     add_repeats(readings, result);
+    if (const text::Message doubt = doubt_of_all(result); !doubt.empty())
+        for (ReadingGrade& reading : readings)
+            add(reading, Grade::care, {kOfWholeSurvey, {}, doubt});
     return readings;
 }
 

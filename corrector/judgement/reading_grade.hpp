@@ -38,6 +38,9 @@ struct Reason {
     text::Message text;           ///< The reason in words, without the reading's name.
 };
 
+/// Code of a reason that all readings of a survey have.
+inline constexpr const char* kOfWholeSurvey = "whole_survey";
+
 /// Limits of |error| / u above which a value gets `care` and `repeat`.  Reason: one in 22 Gaussian
 /// errors is above the first, one in 370 above the second.
 inline constexpr double kCareRatio = 2.0, kRepeatRatio = 3.0;
@@ -60,6 +63,9 @@ struct ReadingGrade {
 /// left_out - reference.  Absent without a reference, and for `day` if only this station is held.
 [[nodiscard]] std::optional<double> error_of(const model::CorrectedRow& row);
 
+/// Returns true for a network that fails the global test on its upper side.
+[[nodiscard]] bool scatters_more_than_stated(const model::SurveyCorrection& result);
+
 /// Returns one grade per row.
 ///
 /// A reason is only what makes readings worse on simulated days (remarks_bench.py); the figures and
@@ -75,6 +81,8 @@ struct ReadingGrade {
 ///   is.
 /// - Two readings of a station: both get `care` if they differ by more than 2 sqrt(2) s (`day`:
 ///   placement).  Readings that have `repeat` for another reason are not compared.
+///
+/// - A day that is not usable, or a network that scatters more than stated (global test): all `care`.
 ///
 /// A value exactly at its limit is trusted (reading_grade_test.cpp).
 /// @param result  rows in ascending time, with coefficients, score and stations.

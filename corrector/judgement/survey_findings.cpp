@@ -26,6 +26,9 @@ using reading::SurveyRow;
 /// A day is unusable if stations left out are predicted this much worse than with the mistakes put
 /// right, and at least so badly.  Reason: twice the 2.6 mGal of the publication.
 constexpr double kUnusableRatio = 2.0, kUnusable_mgal = 5.2;
+/// Error with which a day is unusable whatever the cause: more than twice that of any model on the
+/// simulated days, and less than half of what confused names or units give (45 to 113 mGal).
+constexpr double kUnusableAnyhow_mgal = 20.0;
 
 std::vector<SearchedReading> searched(const std::vector<SurveyRow>& rows,
                                       const model::RowChoice& choice, bool has_loops) {
@@ -86,16 +89,22 @@ int rank_of(const Finding& finding) {
 std::optional<Finding> unusable(const model::SurveyCorrection& result,
                                 const std::optional<double>& amended_loso_mgal) {
     const auto& loso = result.score.loso_mgal;
-    if (!loso || !amended_loso_mgal || *loso < kUnusable_mgal ||
-        *loso < kUnusableRatio * *amended_loso_mgal)
+    if (!loso) return std::nullopt;
+    Finding finding{.kind = FindingKind::unusable_day, .code = "unusable_day", .is_headline = true};
+    if (std::min(*loso, amended_loso_mgal.value_or(*loso)) > kUnusableAnyhow_mgal)
+        finding.text = text::message(
+            "this day is not usable: stations left out are predicted with an error of {} mGal, and "
+            "no mistake that is looked for explains it; check times, names, signs and units",
+            text::fixed(*loso, 1));
+    else if (amended_loso_mgal && *loso >= kUnusable_mgal &&
+             *loso >= kUnusableRatio * *amended_loso_mgal)
+        finding.text = text::message(
+            "this day is not usable as it is: stations left out are predicted "
+            "with an error of {} mGal, {} with the mistakes that were found put right",
+            text::fixed(*loso, 1), text::fixed(*amended_loso_mgal, 1));
+    else
         return std::nullopt;
-    return Finding{
-        .kind = FindingKind::unusable_day,
-        .code = "unusable_day",
-        .text = text::message("this day is not usable as it is: stations left out are predicted "
-                              "with an error of {} mGal, {} with the mistakes that were found put right",
-                              text::fixed(*loso, 1), text::fixed(*amended_loso_mgal, 1)),
-        .is_headline = true};
+    return finding;
 }
 
 /// Trials that report how many there were.
@@ -158,6 +167,7 @@ Search search(const model::SurveyCorrection& result, const SearchedSurvey& surve
     std::vector<Finding> findings = result.findings;
     Search found;
     std::optional<model::AmendedSurvey> right;
+    std::optional<double> amended_loso_mgal;
     const model::Model& model = *model::find_model(result.model);
     const std::vector<SurveyRow> rows =
         model::without_known_tilt(survey.rows, result.options.calibration);
@@ -185,12 +195,13 @@ Search search(const model::SurveyCorrection& result, const SearchedSurvey& surve
                 findings.push_back(std::move(finding));
         if (!mistakes.empty()) {
             right = model::amended(rows, result.options, {mistakes.begin(), mistakes.end()});
-            const auto score =
-                model.score({right->rows, right->options, survey.day, nearby}, right->choice);
-            if (auto finding = unusable(result, score ? score->loso_mgal : std::nullopt))
-                findings.insert(findings.begin(), std::move(*finding));
+            if (const auto score =
+                    model.score({right->rows, right->options, survey.day, nearby}, right->choice))
+                amended_loso_mgal = score->loso_mgal;
         }
     }
+    if (auto finding = unusable(result, amended_loso_mgal))
+        findings.insert(findings.begin(), std::move(*finding));
     // A mistake that was found is a misfit of its own.
     if (!right) say_misfits(result, findings);
     for (Finding& remark : survey_remarks(result, survey.rows, survey.sites))

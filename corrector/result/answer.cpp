@@ -26,11 +26,17 @@ std::string grade_in_words(Grade grade) {
 /// With one it is 12.7, and u can be a tenth of the error.
 constexpr double kMostCoverage = 2.58;
 
+/// Returns the uncertainty to be shown: that from the scatter if it is larger than stated.
+std::optional<MilliGal> model::StationValue::*shown_u(const model::SurveyCorrection& result) {
+    return judgement::scatters_more_than_stated(result) ? &model::StationValue::u_a_posteriori
+                                                        : &model::StationValue::u_gravity;
+}
+
 /// Returns u of the stations in ascending order.
 std::vector<double> uncertainties(const model::SurveyCorrection& result) {
     std::vector<double> values;
     for (const model::StationValue& station : result.stations)
-        if (station.u_gravity) values.push_back(station.u_gravity->value());
+        if (const auto& u = station.*shown_u(result)) values.push_back(u->value());
     std::ranges::sort(values);
     return values;
 }
@@ -118,7 +124,7 @@ std::string answer(const model::SurveyCorrection& result, const std::vector<Read
                     : accuracy(result);
     const bool has_findings = !std::ranges::all_of(result.findings, reading::is_remark);
     if (has_findings) text += ' ' + tr("First look at what was found (below).");
-    if (std::ranges::any_of(result.findings, [](const reading::Finding& finding) {
+    if (is_unusable || std::ranges::any_of(result.findings, [](const reading::Finding& finding) {
             return !reading::is_remark(finding) && !finding.amendment.empty();
         }))
         return text;
@@ -142,8 +148,9 @@ std::string answer(const model::SurveyCorrection& result, const std::vector<Read
 
 Table answer_table(const model::SurveyCorrection& result, const std::vector<ReadingGrade>& grades) {
     using Row = model::StationValue;
-    std::vector<Column<Row>> columns = with_keys(station_columns(result.stations),
-                                                 {"site", "n", "gravity_mgal", "u_gravity_mgal"});
+    std::vector<Column<Row>> columns =
+        with_keys(station_columns(result.stations), {"site", "n", "gravity_mgal"});
+    columns.push_back({"u", of(shown_u(result)), {text::marked("u mGal"), 2}});
     columns.push_back(difference_column(result));
     columns = with_decimals(columns, decimals_of(result));
     const auto mark = [&](const Row& station) {
@@ -167,12 +174,17 @@ std::vector<std::string> notes(const model::SurveyCorrection& result,
         });
     };
     for (const Grade grade : {Grade::repeat, Grade::care})
-        for (std::size_t i = 0; i < grades.size(); ++i)
-            if (grades[i].grade == grade && !is_found(grades[i]))
+        for (std::size_t i = 0; i < grades.size(); ++i) {
+            ReadingGrade own = grades[i];
+            // A doubt about all readings is a finding, or said once below.
+            std::erase_if(own.reasons, [](const judgement::Reason& reason) {
+                return reason.code == judgement::kOfWholeSurvey;
+            });
+            if (own.grade == grade && !own.reasons.empty() && !is_found(own))
                 list.push_back(tr("{}, {}: {}.", judgement::reading_name(result.rows, i),
-                                  grade_in_words(grade), judgement::reason_in_words(grades[i])));
-    if (const auto* const network = result.as<model::NetworkPart>();
-        network != nullptr && !network->passes_global_test().value_or(true))
+                                  grade_in_words(grade), judgement::reason_in_words(own)));
+        }
+    if (judgement::scatters_more_than_stated(result))
         list.push_back(
             tr("The readings scatter more than stated (global test failed): look for a fault."));
     std::vector<std::string> unchecked;

@@ -49,6 +49,25 @@ TEST_CASE("a reading at its limits is trusted", "[report][grade]") {
     CHECK(grade_of_station(result, grade_readings(result), "B").grade == Grade::trust);
 }
 
+TEST_CASE("no reading of a survey is trusted if the survey as a whole is not", "[report][grade]") {
+    SurveyCorrection network = quiet(2);
+    NetworkPart part;
+    part.dof = 4;
+    part.weighted_square = 11.0;
+    part.chi_square_high = 11.1;
+    network.own = part;
+    CHECK(first_grade(network) == Grade::trust);
+    part.weighted_square = 11.2;
+    network.own = part;
+    CHECK(first_grade(network) == Grade::care);
+    CHECK(first_reasons(network) == "the readings scatter more than stated (global test failed)|");
+
+    SurveyCorrection unusable = quiet(2);
+    unusable.findings.push_back({.kind = FindingKind::unusable_day, .text = "not usable"});
+    CHECK(first_grade(unusable) == Grade::care);
+    CHECK(first_reasons(unusable) == "not usable|");
+}
+
 TEST_CASE("a moving temperature is graded repeat, or care if the model has a rate term",
           "[report][grade]") {
     SurveyCorrection result = quiet(2);

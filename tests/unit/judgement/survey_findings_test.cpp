@@ -163,6 +163,25 @@ TEST_CASE("nothing is said of benchmarks that another sensor of the day may have
           Kinds{"other_unit"});
 }
 
+TEST_CASE("a day that no mistake explains is not usable either", "[mistake]") {
+    Day day;
+    const std::vector<reading::SurveyRow> right = day.rows;
+    for (std::size_t i = 0; i < right.size(); ++i) {  // each has the name of the next one
+        const reading::SurveyRow& next = right[(i + 1) % right.size()];
+        day.rows[i].site = next.site;
+        day.rows[i].occupation = next.occupation;
+        day.rows[i].listed = next.listed;
+        day.rows[i].reference = next.reference;
+    }
+    const auto findings = day.findings();
+    REQUIRE(!findings.empty());
+    CHECK(findings[0].kind == FindingKind::unusable_day);
+    CHECK(findings[0].is_headline);
+    CHECK(findings[0].amendment.empty());
+    CHECK_THAT(findings[0].text.english(),
+               ContainsSubstring("check times, names, signs and units"));
+}
+
 TEST_CASE("a site that does not fit the others is a remark", "[mistake]") {
     Day day;
     day.sites[2].longitude = Degrees(-140.0);

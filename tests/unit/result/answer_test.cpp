@@ -112,6 +112,31 @@ TEST_CASE("the answer says to look at findings first, but not at remarks", "[res
                StartsWith("8 stations, but this day cannot be used as it is."));
 }
 
+TEST_CASE("u is that of the scatter if the readings scatter more than stated", "[result][answer]") {
+    SurveyCorrection result = scattered_day();
+    for (StationValue& station : result.stations) {
+        station.u_gravity = MilliGal(0.5);
+        station.u_a_posteriori = MilliGal(40.0);
+    }
+    NetworkPart part;
+    part.dof = 4;
+    part.weighted_square = 11.0;
+    part.chi_square_high = 11.1;
+    result.own = part;
+    const auto table = [&] { return answer_table(result, grade_readings(result)); };
+    CHECK(std::stod(table().rows[0][3]) == 0.5);
+    part.weighted_square = 100.0;
+    result.own = part;
+    CHECK(std::stod(table().rows[0][3]) == 40.0);
+    // All readings have this doubt, so it is said once.
+    const std::vector<std::string> said = notes(result, grade_readings(result));
+    CHECK(std::ranges::count_if(said, [](const std::string& note) {
+              return note.find("scatter more than stated") != std::string::npos;
+          }) == 1);
+    result.score.loso_mgal.reset();
+    CHECK_THAT(answer(result, grade_readings(result)), StartsWith("8 stations; u is 40 to 40"));
+}
+
 TEST_CASE("the difference of a station is measured minus reference", "[result][answer]") {
     SurveyCorrection result = scattered_day();
     StationValue& station = result.stations[1];
