@@ -4,6 +4,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "protocol/core/sensor_limits.hpp"
+#include "protocol/signal/median.hpp"
 #include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector::judgement {
@@ -12,6 +14,10 @@ namespace {
 /// Factors of a prior's standard deviation.  Reason: a free coefficient may be a hundred deviations
 /// away, and one that is held moves by a thousandth of one.
 constexpr double kFree = 1e2, kHeld = 1e-3;
+
+/// Bias that is not believed.  Reason: twice the 7 mg that the data sheet allows after a year
+/// (sensor_limits.hpp).
+constexpr StandardGravity kFarBias(0.014);
 
 adjustment::Priors with_factor(adjustment::Priors priors,
                                const std::vector<model::Coefficient>& terms, double factor,
@@ -64,11 +70,30 @@ reading::Finding far_term(const model::Fit& fit, const model::Coefficient& term,
                           const adjustment::Priors& given) {
     reading::Finding finding{.kind = reading::FindingKind::scale, .code = "term_far_from_prior"};
     finding.text = text::message(
-        "{} comes out as {}, {} standard deviations from its prior {} +- {}{}: look for a mistake in "
+        "{} comes out as {}, {} standard deviations from its prior {} +- {}{}: look for a mistake "
+        "in "
         "the readings, or give the instrument's own value as prior",
         name_of(fit, term), text::fixed(term.value, 5), text::fixed(term.deviations(), 1),
         text::shortest(term.prior->mean), text::shortest(term.prior->sd),
         is_held(term, given) ? text::message(", and is held there") : text::Message());
+    return finding;
+}
+
+std::optional<reading::Finding> far_bias(const std::vector<model::CorrectedRow>& rows) {
+    std::vector<double> biases_mgal;
+    for (const model::CorrectedRow& row : rows)
+        if (row.row.reference && is_norm_believable(to_standard_gravity(row.row.measured())))
+            biases_mgal.push_back((row.row.reduced() - *row.row.reference).value() * row.row.face);
+    if (biases_mgal.empty()) return std::nullopt;
+    const double bias_mgal = signal::median(std::move(biases_mgal));
+    if (!(std::abs(bias_mgal) > to_milligal(kFarBias).value())) return std::nullopt;
+    reading::Finding finding{
+        .kind = reading::FindingKind::scale, .code = "far_bias", .is_headline = true};
+    finding.text = text::message(
+        "the readings are {} mGal {} gravity, more than twice the bias that the data sheet allows "
+        "(7 mg): check their unit, and the sensitivity in the metadata",
+        text::fixed(std::abs(bias_mgal), 0),
+        bias_mgal > 0.0 ? text::message("above") : text::message("below"));
     return finding;
 }
 

@@ -3,6 +3,7 @@
 /// Coefficients that the readings move far from their priors: a prior that is wrong, or a mistake in
 /// the readings that looks like a scale.
 
+#include <optional>
 #include <vector>
 
 #include "corrector/model/corrected_survey.hpp"
@@ -20,7 +21,7 @@ inline constexpr double kFarTerm = 4.0;
 /// Returns the priors with the coefficients free, so that the readings alone decide.  A scale farther
 /// from 1 than adjustment::kGreatestScaleError keeps its prior: it is no scale.
 [[nodiscard]] adjustment::Priors freed(adjustment::Priors priors,
-                                  const std::vector<model::Coefficient>& terms);
+                                       const std::vector<model::Coefficient>& terms);
 
 /// Returns true for a coefficient that is held when it is far: a scale, or one whose prior the user gave.
 /// Other priors are assumptions about a unit that nobody has measured; clear readings overrule them.
@@ -36,6 +37,12 @@ inline constexpr double kFarTerm = 4.0;
 /// @param given  priors of the user.
 [[nodiscard]] reading::Finding far_term(const model::Fit& fit, const model::Coefficient& term,
                                         const adjustment::Priors& given);
+
+/// Returns a finding of the kind `scale` if readings near 1 g are farther from their references than any
+/// bias explains: they have another unit, or the sensitivity is wrong.  Other readings are those of a
+/// gravimeter with an offset of its own.
+[[nodiscard]] std::optional<reading::Finding> far_bias(
+    const std::vector<model::CorrectedRow>& rows);
 
 /// Returns a remark: the coefficient is held at its prior, because mistakes moved it away.
 [[nodiscard]] text::Message held_term(const model::Fit& fit, const model::Coefficient& term);

@@ -202,6 +202,7 @@ Search search(const model::SurveyCorrection& result, const SearchedSurvey& surve
     }
     if (auto finding = unusable(result, amended_loso_mgal))
         findings.insert(findings.begin(), std::move(*finding));
+    if (auto finding = far_bias(result.rows)) findings.push_back(std::move(*finding));
     // A mistake that was found is a misfit of its own.
     if (!right) say_misfits(result, findings);
     for (Finding& remark : survey_remarks(result, survey.rows, survey.sites))

@@ -5,6 +5,7 @@
 #include <set>
 #include "tests/support/catch.hpp"
 
+#include "corrector/judgement/far_terms.hpp"
 #include "corrector/judgement/survey_findings.hpp"
 
 using namespace a351;
@@ -163,6 +164,25 @@ TEST_CASE("a step is named with the uncertainty that the scale gives it, and the
     // A scale that only the mistake makes is not used.
     REQUIRE(result.scales.size() == 1);
     CHECK(std::abs(result.scales[0].value - 1.0) < 4.0 * 0.002);
+}
+
+TEST_CASE("readings too far from gravity for any bias are named, but not those of a gravimeter",
+          "[judgement][scale]") {
+    const auto found = [](double reading_mgal, int face = 1) {
+        model::CorrectedRow row;
+        row.row.acceleration = MilliGal(reading_mgal);
+        row.row.reference = MilliGal(979800.0);
+        row.row.face = face;
+        return judgement::far_bias({row, row});
+    };
+    CHECK_FALSE(found(979800.0 + 13700.0));
+    REQUIRE(found(979800.0 - 13800.0));
+    CHECK_THAT(found(979800.0 - 13800.0)->text.english(),
+               StartsWith("the readings are 13800 mGal below gravity"));
+    CHECK_THAT(found(979800.0 - 13800.0, -1)->text.english(),
+               StartsWith("the readings are 13800 mGal above gravity"));
+    CHECK_FALSE(found(4123.0));
+    CHECK_FALSE(judgement::far_bias({}));
 }
 
 TEST_CASE("a step of one of two meters is a step of this meter only", "[judgement][scale]") {
