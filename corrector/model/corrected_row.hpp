@@ -43,7 +43,7 @@ struct WholeDayRow {
 /// temperature correction between rows show the effect of the temperature.
 struct CorrectedRow {
     reading::SurveyRow row;              ///< Reading; for `day` with means over its bins.
-    bool is_used = false;                ///< True for a row in the fit.
+    bool is_used = false;                ///< True for a row in the fit; `day`: with a reference.
     std::optional<MilliGal> difference;  ///< acceleration - reference - tide.
     MilliGal temperature_correction;
     MilliGal rate_correction;

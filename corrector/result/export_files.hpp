@@ -34,7 +34,7 @@ namespace a351::corrector::result {
 
 /// Returns the occupations as the CSV that GSadjust imports as "csv".
 ///
-/// Tide, temperature and rate are corrected.  Drift is not, because GSadjust estimates it.  Each
+/// Tide, height, air pressure, tilt, temperature and rate are corrected.  Drift is not, because GSadjust estimates it.  Each
 /// occupation has two lines, value - u and value + u, because GSadjust takes the standard deviation
 /// of a station from the scatter of its lines.  Excluded occupations are comments, and so are
 /// flagged ones with SurveyOptions::use_flags.  Tilt is corrected too, and the flicker of the

@@ -238,7 +238,7 @@ void assess(Status& status) {
             "wait"));
     } else if (status.timing_state == timing::State::holdover) {
         status.warn(text::message(
-            "timing: holdover, the host clock is not synchronised or has jumped; synchronise it, "
+            "timing: holdover, the host clock lost its synchronisation or jumped; synchronise it, "
             "and correct the times later with a351-correct retime"));
     }
     if (status.counters.records_withheld > 0) {

@@ -60,7 +60,7 @@ struct SetUpPlan {
 ///
 /// A set-up is complete after its planned length, and the last one not before the length of the stay,
 /// if half of that was undisturbed.  Reason: half the
-/// length has an error larger by 4 % (1.44 and 1.38 mGal on simulated days).
+/// length has an error larger by 4 %.
 /// @param length_s  planned length of all set-ups together.
 /// @param stay_s    seconds since the start of the stay.
 /// @param set_up_s  seconds since the start of the running set-up.
