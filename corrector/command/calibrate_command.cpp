@@ -18,6 +18,7 @@
 #include "corrector/series/tumble_series.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/aligned_text.hpp"
+#include "protocol/text/doubtful_site.hpp"
 #include "protocol/text/progress_bar.hpp"
 #include "protocol/text/write_together.hpp"
 #include "protocol/unit/calibration_origin.hpp"
@@ -140,6 +141,8 @@ void read_series(unit::Calibration& calibration, const std::vector<std::string>&
         text::ProgressBar bar(survey.name);
         const reading::OccupationRows read = job::read_survey(survey, std::ref(bar));
         print_warnings(read.warnings, survey.name + ": ");
+        if (const text::Message doubt = text::doubtful_site(read.sites); !doubt.empty())
+            print_warnings({doubt}, survey.name + ": ");
         measure(read, survey.name, file);
         const UtcTime start = read.rows.front().start.value_or(read.rows.front().time);
         counted.add(read.rows,

@@ -22,13 +22,16 @@ constexpr std::string_view kCg5Title = "CG-5 SURVEY";
 constexpr double kNear_deg = 3.0;
 
 /// Returns a coordinate such as `1.6000000 E` in degrees, north and east positive.
-std::optional<Degrees> coordinate(std::string_view text) {
+/// @param directions  letters of the positive and the negative direction.
+std::optional<Degrees> coordinate(std::string_view text, std::string_view directions,
+                                  double greatest) {
     const auto parts = split_at_blanks(text);
     if (parts.size() != 2 || parts[1].size() != 1) return std::nullopt;
     const auto value = text::parse_number(parts[0]);
-    if (!value || std::string_view("NESW").find(parts[1][0]) == std::string_view::npos)
+    if (!value || std::abs(*value) > greatest ||
+        directions.find(parts[1][0]) == std::string_view::npos)
         return std::nullopt;
-    return Degrees(parts[1] == "S" || parts[1] == "W" ? -*value : *value);
+    return Degrees(parts[1][0] == directions[1] ? -*value : *value);
 }
 
 /// Returns the name of a station: `16.0000000` is 16.
@@ -124,8 +127,9 @@ private:
             are_options_used_ = false;
         }
         if (key == "Note") note_ = value.substr(0, value.find_first_of(" \t"));
-        if (key == "LONG") is_valid = (survey_.longitude = coordinate(value)).has_value();
-        if (key == "LAT") is_valid = (survey_.latitude = coordinate(value)).has_value();
+        if (key == "LONG")
+            is_valid = (survey_.longitude = coordinate(value, "EW", 180.0)).has_value();
+        if (key == "LAT") is_valid = (survey_.latitude = coordinate(value, "NS", 90.0)).has_value();
         if (key == "GMT DIFF.") {
             const auto hours = text::parse_number(value);
             is_valid = hours && std::abs(*hours) < 24.0;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <cstdlib>
 #include <sstream>
 
 #include "protocol/core/input_error.hpp"
@@ -42,6 +44,20 @@ double CsvTable::number(std::size_t row, std::string_view column, double low, do
     if (!(*value >= low && *value <= high))
         refuse(row, column, "out of range", shortest(low) + " to " + shortest(high));
     return *value;
+}
+
+double CsvTable::unrounded(std::size_t row, std::string_view column, double digit, double low,
+                           double high) const {
+    const double value = number(row, column, low, high);
+    const std::string& text = cell(row, column);
+    const std::size_t exponent = text.find_first_of("eE");
+    if (exponent == std::string::npos) return value;
+    const std::size_t point = text.find_first_of(".,");
+    const auto decimals = point < exponent ? static_cast<double>(exponent - point - 1) : 0.0;
+    const double power = std::atoi(text.c_str() + exponent + 1);
+    if (std::pow(10.0, power - decimals) > digit)
+        refuse(row, column, "rounded by a spreadsheet", "all digits, without an exponent");
+    return value;
 }
 
 std::optional<double> CsvTable::number_if_given(std::size_t row, std::string_view column,

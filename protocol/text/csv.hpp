@@ -63,6 +63,12 @@ public:
                                 double low = std::numeric_limits<double>::lowest(),
                                 double high = std::numeric_limits<double>::max()) const;
 
+    /// Returns number(), but not of a cell with an exponent whose last digit is worth more than
+    /// `digit`: a spreadsheet has rounded it for its screen, as 979860.21 to 9.7986E+05.
+    /// @throws InputError  also for such a cell.
+    [[nodiscard]] double unrounded(std::size_t row, std::string_view column, double digit,
+                                   double low, double high) const;
+
     /// Returns number(), or std::nullopt for an empty cell.
     /// @throws InputError  there is no such column, or the cell is neither empty nor such a number.
     [[nodiscard]] std::optional<double> number_if_given(

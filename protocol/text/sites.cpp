@@ -111,9 +111,9 @@ std::vector<Site> parse_sites(std::string_view text, const std::filesystem::path
                   Metres(altitudes[row]),
                   std::nullopt,
                   is_placed[row]};
-        if (const auto gravity = table.number_if_given(row, "gravity_mgal", kLeastGravity_mgal,
-                                                       kGreatestGravity_mgal))
-            site.gravity = MilliGal(*gravity);
+        if (!table.cell(row, "gravity_mgal").empty())
+            site.gravity = MilliGal(table.unrounded(row, "gravity_mgal", kLeastDigit_mgal,
+                                                    kLeastGravity_mgal, kGreatestGravity_mgal));
         constexpr double kLeastReliable_mgal = 100.0;  // worse than any map of gravity anomalies
         if (const auto u =
                 table.has_column("u_gravity_mgal")

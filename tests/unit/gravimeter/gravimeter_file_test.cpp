@@ -43,6 +43,20 @@ TEST_CASE("a CG-5 without its tide correction has none, and a second header chan
     CHECK(to_rfc3339(file.readings[1].time) == "2013-09-15T09:00:00Z");
 }
 
+TEST_CASE("a coordinate in the header of a CG-5 that is none is refused", "[gravimeter]") {
+    const auto refused = [](const std::string& from, const std::string& to) {
+        std::string text = cg5_header("0.0") + cg5_reading("1", "10:00:00");
+        text.replace(text.find(from), from.size(), to);
+        std::string reasons;
+        for (const RefusedLine& line : read(text).refused) reasons += line.reason + ";";
+        return reasons;
+    };
+    CHECK(refused("33.25 S", "90.0 S").find("LAT") == std::string::npos);
+    CHECK_THAT(refused("33.25 S", "140.1 N"), StartsWith("LAT: not as a CG-5 writes it"));
+    CHECK_THAT(refused("33.25 S", "33.25 E"), StartsWith("LAT: not as a CG-5 writes it"));
+    CHECK_THAT(refused("70.5 W", "180.5 W"), StartsWith("LONG: not as a CG-5 writes it"));
+}
+
 TEST_CASE("a CG-6 gives its own tide only if it was applied, and the receiver's position",
           "[gravimeter]") {
     const auto file = read(cg6_header() + cg6_reading("A 1", "10:00:00") +

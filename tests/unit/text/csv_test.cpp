@@ -54,6 +54,22 @@ TEST_CASE("an error in a CSV file names file, line, column, value and what is al
     CHECK_THROWS_AS(read_csv("/nowhere/t.csv"), InputError);
 }
 
+TEST_CASE("a number that a spreadsheet has rounded for its screen is refused", "[text][csv]") {
+    const auto read = [](const std::string& cell) {
+        const auto table = CsvTable::parse("g\n" + cell + "\n", "sites.csv");
+        return table.unrounded(0, "g", 0.1, 0.0, 1e6);
+    };
+    CHECK(read("979860.21") == 979860.21);
+    CHECK(read("979860") == 979860.0);
+    CHECK(read("9.798602E+05") == 979860.2);
+    CHECK(read("9798602e-1") == 979860.2);
+    CHECK_THROWS_WITH(read("9.7986E+05"),
+                      "sites.csv:2: g = 9.7986E+05: rounded by a spreadsheet; allowed: all digits, "
+                      "without an exponent");
+    CHECK_THROWS_AS(read("9.79860e5"), InputError);
+    CHECK_THROWS_AS(read("1e6"), InputError);
+}
+
 TEST_CASE("a miniSEED file is named as such, not read as a table", "[text][csv]") {
     CHECK_THROWS_WITH(
         (void)read_csv(A351_GOLDEN "/miniseed/XX.A351.00.BNZ_steim2_blockette100.mseed"),

@@ -89,6 +89,8 @@ TEST_CASE("a bad sites file is refused with its line", "[text][sites]") {
     // m/s2 instead of mGal.
     CHECK_THROWS_WITH(read_sites(written(kHeader + "X,1,36,0,9.799\n")),
                       ContainsSubstring(":2: gravity_mgal = 9.799: out of range"));
+    CHECK_THROWS_WITH(read_sites(written(kHeader + "X,1,36,0,9.7986E+05\n")),
+                      ContainsSubstring(":2: gravity_mgal = 9.7986E+05: rounded"));
 }
 
 TEST_CASE("a site whose name is not UTF-8 is refused with the remedy", "[text][sites]") {
