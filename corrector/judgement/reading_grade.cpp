@@ -70,7 +70,7 @@ void add_residual(ReadingGrade& reading, const model::CorrectedRow& row, bool is
          {off_mgal, std::abs(ratio)},
          text::message(
              "{} mGal {}{}, {} times the uncertainty expected if name and reference are right",
-             text::fixed(std::abs(off_mgal), 1),
+             text::fixed(std::abs(off_mgal), text::decimals_for(row.u_corrected->value())),
              ratio > 0.0 ? text::message("above its reference")
                          : text::message("below its reference"),
              is_left_out ? text::message(" when its station is left out") : text::Message(),
@@ -100,7 +100,8 @@ void add_samples(ReadingGrade& reading, const model::CorrectedRow& row) {
             {"scattered",
              {error->value(), u.value()},
              text::message("its samples scatter: their mean is known to {} mGal only (u: {} mGal)",
-                           text::fixed(error->value(), 1), text::fixed(u.value(), 1))});
+                           text::fixed(error->value(), text::decimals_for(u.value())),
+                           text::fixed(u.value(), text::decimals_for(u.value())))});
     if (by_shaking > u)
         add(reading, Grade::repeat,
             {"shaken",
@@ -145,7 +146,8 @@ void add_repeats(std::vector<ReadingGrade>& readings, const model::SurveyCorrect
                 "differs",
                 {std::abs(pair.after_all.value()), ratio},
                 text::message("differs by {} mGal from {}, {} times the value expected from {}",
-                              text::fixed(std::abs(pair.after_all.value()), 1),
+                              text::fixed(std::abs(pair.after_all.value()),
+                                          text::decimals_for(expected_mgal)),
                               reading_name(result.rows, other), text::fixed(ratio, 1),
                               scatter->name)};
         };

@@ -63,7 +63,7 @@ bool is_left_out(const model::StationValue& station) {
 std::string accuracy(const model::SurveyCorrection& result) {
     const std::string stations = counted_stations(result);
     const auto loso = result.score.loso_mgal;
-    const std::string error = loso ? text::fixed(*loso, decimals_for(loso)) : "";
+    const std::string error = loso ? text::fixed(*loso, text::decimals_for(loso)) : "";
     const auto left_out = std::ranges::count_if(result.stations, is_left_out);
     if (loso && left_out >= kFewestLeftOut)
         return tr("{}; a new one is known to +- {} mGal (each known station left out).", stations,
@@ -101,19 +101,15 @@ Column<model::StationValue> difference_column(const model::SurveyCorrection& res
 
 }  // namespace
 
-int decimals_for(const std::optional<double>& u_mgal) {
-    if (!u_mgal || !(*u_mgal > 0.0)) return 1;
-    return std::clamp(1 - static_cast<int>(std::floor(std::log10(*u_mgal))), 0, 4);
-}
-
 int decimals_of(const model::SurveyCorrection& result) {
     const std::vector<double> u = uncertainties(result);
-    return decimals_for(u.empty() ? std::nullopt : std::optional(u[u.size() / 2]));
+    return text::decimals_for(u.empty() ? std::nullopt : std::optional(u[u.size() / 2]));
 }
 
 int decimals_of(const model::Coefficient& coefficient) {
     constexpr int kWithoutError = 4;
-    return coefficient.standard_error ? decimals_for(coefficient.standard_error) : kWithoutError;
+    return coefficient.standard_error ? text::decimals_for(coefficient.standard_error)
+                                      : kWithoutError;
 }
 
 std::string answer(const model::SurveyCorrection& result, const std::vector<ReadingGrade>& grades) {

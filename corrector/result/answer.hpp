@@ -18,11 +18,6 @@
 
 namespace a351::corrector::result {
 
-/// Returns the digits after the point that a value with this uncertainty deserves: one more than
-/// its first digit.  1.5 gives 1, 0.94 gives 2, 31 gives 0.
-/// @param u_mgal  absent or not above 0: 1 digit.
-[[nodiscard]] int decimals_for(const std::optional<double>& u_mgal);
-
 /// Returns decimals_for() of the median uncertainty of the stations, or of the standard error of a
 /// coefficient (without one: 4).
 [[nodiscard]] int decimals_of(const model::SurveyCorrection& result);

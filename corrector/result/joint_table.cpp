@@ -67,7 +67,7 @@ Table table_by_survey(const std::vector<JointStation>& stations,
             if (station == nullptr || (is_adjusted && !stations[i].gravity)) continue;
             const DayValue value = day_value(*station);
             const int digits =
-                decimals_for(value.u ? std::optional(value.u->value()) : std::nullopt);
+                text::decimals_for(value.u ? std::optional(value.u->value()) : std::nullopt);
             const auto shown = [digits](MilliGal gravity) {
                 return text::fixed(gravity.value(), digits);
             };

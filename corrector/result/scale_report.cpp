@@ -29,7 +29,7 @@ std::vector<std::string> scale_sentences(const model::SurveyCorrection& result) 
     std::vector<std::string> sentences;
     for (const model::ScaleEstimate& scale : result.scales) {
         const model::Interval limits = scale.limits();
-        const int decimals = decimals_for(scale.u);
+        const int decimals = text::decimals_for(scale.u);
         const auto shown = [decimals](double value) { return text::fixed(value, decimals); };
         sentences.push_back(
             text::tr("scale of {}: {} +- {} (95 % limits: {} to {}); {} (prior {} +- {}). A "

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 #include "protocol/text/columns.hpp"
 
@@ -15,6 +16,11 @@ std::string fixed(double value, int decimals) {
     if (text.starts_with('-') && text.find_first_not_of("-0.") == std::string::npos)
         text.erase(0, 1);
     return text;
+}
+
+int decimals_for(const std::optional<double>& u_mgal) {
+    if (!u_mgal || !(*u_mgal > 0.0)) return 1;
+    return std::clamp(1 - static_cast<int>(std::floor(std::log10(*u_mgal))), 0, 4);
 }
 
 std::string fixed_or(const std::optional<double>& value, int decimals, const std::string& absent) {

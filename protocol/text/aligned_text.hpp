@@ -29,6 +29,11 @@ namespace a351::text {
 /// @param decimals  0 to 80; 0 gives no point.
 [[nodiscard]] std::string fixed(double value, int decimals);
 
+/// Returns the digits after the point that a value with this uncertainty deserves: one more than
+/// its first digit.  1.5 gives 1, 0.94 gives 2, 31 gives 0.
+/// @param u_mgal  absent or not above 0: 1 digit.
+[[nodiscard]] int decimals_for(const std::optional<double>& u_mgal);
+
 /// Returns fixed(), or `absent` if there is no value.  A MilliGal is written in mGal, without the
 /// unit.
 /// @param decimals  as fixed().

@@ -120,6 +120,14 @@ TEST_CASE("a reading with a scatter above its uncertainty is graded care, a shak
     CHECK(first_grade(result) == Grade::care);
     CHECK(first_reasons(result) ==
           "its samples scatter: their mean is known to 2.1 mGal only (u: 2.0 mGal)|");
+    // A gravimeter needs more digits.
+    result.rows[0].u_corrected = MilliGal(0.005);
+    result.rows[0].residual.reset();
+    record.standard_error = MilliGal(0.0123);
+    record.rectification = MilliGal(0.0);
+    CHECK(first_reasons(result) ==
+          "its samples scatter: their mean is known to 0.0123 mGal only (u: 0.0050 mGal)|");
+    result.rows[0].u_corrected = MilliGal(2.0);
     record.standard_error.reset();
     record.rectification = MilliGal(77.6);
     CHECK(first_grade(result) == Grade::repeat);

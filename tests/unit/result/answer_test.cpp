@@ -5,6 +5,7 @@
 
 #include "corrector/model/survey_correction.hpp"
 #include "corrector/result/table_text.hpp"
+#include "protocol/text/aligned_text.hpp"
 #include "tests/unit/model/survey_rows.hpp"
 
 using namespace a351;
@@ -32,12 +33,12 @@ std::vector<ReadingGrade> all_good(const SurveyCorrection& result) {
 }  // namespace
 
 TEST_CASE("a value has one digit more than the first of its uncertainty", "[result][answer]") {
-    CHECK(decimals_for(1.5) == 1);
-    CHECK(decimals_for(0.94) == 2);
-    CHECK(decimals_for(10.0) == 0);
-    CHECK(decimals_for(310.0) == 0);
-    CHECK(decimals_for(0.0) == 1);
-    CHECK(decimals_for(std::nullopt) == 1);
+    CHECK(text::decimals_for(1.5) == 1);
+    CHECK(text::decimals_for(0.94) == 2);
+    CHECK(text::decimals_for(10.0) == 0);
+    CHECK(text::decimals_for(310.0) == 0);
+    CHECK(text::decimals_for(0.0) == 1);
+    CHECK(text::decimals_for(std::nullopt) == 1);
 }
 
 TEST_CASE(
