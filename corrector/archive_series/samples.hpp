@@ -37,8 +37,8 @@ struct Span {
 
 /// Reads all channels of an epoch, on all cores.  A channel without samples is no error.
 /// @param root  data root; its folder `archive` is read.
-/// @param earlier  samples that are not needed any more.  Their memory is used again: with new memory
-///                 for each day a week takes a quarter more time.
+/// @param earlier  samples that are not needed any more.  Their memory is used again: with new
+///                 memory for each day a week takes a quarter more time.
 /// @throws std::system_error  a file cannot be read, or no thread started.
 [[nodiscard]] std::vector<archive::ChannelData> read_samples(
     const std::filesystem::path& root, const Epoch& epoch, const Span& span,

@@ -55,8 +55,8 @@ struct Series {
     Look look = Look::line;
     Colour colour = Colour::blue;
     std::string label = {};  ///< In the key; empty: not there.
-    /// Numbers of the columns, from 1.  Expressions of gnuplot would cost more time than all the rest of
-    /// a survey's figures, because each value is two system calls.
+    /// Numbers of the columns, from 1.  Expressions of gnuplot would cost more time than all the rest
+    /// of a survey's figures, because each value is two system calls.
     std::vector<int> columns = {1, 2};
     std::string source = {};  ///< Figure::add(), source_of() or kZero.
     bool is_right = false;    ///< Its y axis is the right one.

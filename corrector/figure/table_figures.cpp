@@ -43,8 +43,8 @@ Figure scatter(const std::string& name, const std::string& x_label, const std::s
     return figure;
 }
 
-/// Returns a whole 1000 from which an axis counts, which its label then says, if its numbers have six
-/// digits; else 0.
+/// Returns a whole 1000 from which an axis counts, which its label then says, if its numbers have
+/// six digits; else 0.
 double origin_of(Axis& axis, const std::vector<double>& values) {
     constexpr double kSixDigits = 1e5, kOffset = 1e3;
     const auto [least, greatest] = std::ranges::minmax(values);

@@ -86,7 +86,7 @@ void add_findings(std::vector<Contradiction>& all, const model::SurveyCorrection
         const bool is_of_reading =
             finding.kind == FindingKind::other_name || finding.kind == FindingKind::reference ||
             finding.kind == FindingKind::step || finding.kind == FindingKind::bad_reading ||
-            finding.kind == FindingKind::scale;
+            (finding.kind == FindingKind::scale && finding.code != "far_bias");
         if (!is_of_reading) continue;
         // Without a key, the code says which one.
         const std::string code = finding.key.empty() && finding.time

@@ -90,10 +90,9 @@ std::optional<reading::Finding> far_bias(const std::vector<model::CorrectedRow>&
     reading::Finding finding{
         .kind = reading::FindingKind::scale, .code = "far_bias", .is_headline = true};
     finding.text = text::message(
-        "the readings are {} mGal {} gravity, more than twice the bias that the data sheet allows "
+        "the bias of the readings comes out as {} mGal, more than twice what the data sheet allows "
         "(7 mg): check their unit, and the sensitivity in the metadata",
-        text::fixed(std::abs(bias_mgal), 0),
-        bias_mgal > 0.0 ? text::message("above") : text::message("below"));
+        text::fixed(bias_mgal, 0));
     return finding;
 }
 

@@ -26,8 +26,8 @@ using reading::SurveyRow;
 /// A day is unusable if stations left out are predicted this much worse than with the mistakes put
 /// right, and at least so badly.  Reason: twice the 2.6 mGal of the publication.
 constexpr double kUnusableRatio = 2.0, kUnusable_mgal = 5.2;
-/// Error with which a day is unusable whatever the cause: more than twice that of any model on the
-/// simulated days, and less than half of what confused names or units give (45 to 113 mGal).
+/// Error with which a day is unusable whatever the cause, beyond what the references themselves are
+/// uncertain by.  Reason: eight times the publication's error.
 constexpr double kUnusableAnyhow_mgal = 20.0;
 
 std::vector<SearchedReading> searched(const std::vector<SurveyRow>& rows,
@@ -84,6 +84,17 @@ int rank_of(const Finding& finding) {
     return finding.kind == FindingKind::not_visited ? 3 : 2;
 }
 
+/// Returns the rms uncertainty of the references.
+double u_references(const model::SurveyCorrection& result) {
+    double squares = 0.0, count = 0.0;
+    for (const model::CorrectedRow& row : result.rows) {
+        if (!row.is_used || !row.row.reference) continue;
+        squares += std::pow(row.row.u_reference.value_or(MilliGal(0.0)).value(), 2);
+        count += 1.0;
+    }
+    return count > 0.0 ? std::sqrt(squares / count) : 0.0;
+}
+
 /// Says that the day is not usable, if so.
 /// @param amended_loso_mgal  error of stations left out with the mistakes put right, if there are.
 std::optional<Finding> unusable(const model::SurveyCorrection& result,
@@ -91,13 +102,16 @@ std::optional<Finding> unusable(const model::SurveyCorrection& result,
     const auto& loso = result.score.loso_mgal;
     if (!loso) return std::nullopt;
     Finding finding{.kind = FindingKind::unusable_day, .code = "unusable_day", .is_headline = true};
-    if (std::min(*loso, amended_loso_mgal.value_or(*loso)) > kUnusableAnyhow_mgal)
+    const bool is_bad_anyhow =
+        left_out_count(result) >= kFewestLeftOut &&
+        amended_loso_mgal.value_or(*loso) > std::hypot(kUnusableAnyhow_mgal, u_references(result));
+    if (!amended_loso_mgal && is_bad_anyhow)
         finding.text = text::message(
             "this day is not usable: stations left out are predicted with an error of {} mGal, and "
             "no mistake that is looked for explains it; check times, names, signs and units",
             text::fixed(*loso, 1));
     else if (amended_loso_mgal && *loso >= kUnusable_mgal &&
-             *loso >= kUnusableRatio * *amended_loso_mgal)
+             (is_bad_anyhow || *loso >= kUnusableRatio * *amended_loso_mgal))
         finding.text = text::message(
             "this day is not usable as it is: stations left out are predicted "
             "with an error of {} mGal, {} with the mistakes that were found put right",
@@ -226,6 +240,15 @@ std::string model_without_mistakes(const model::AmendedSurvey& right, const Sear
 }
 
 }  // namespace
+
+std::size_t left_out_count(const model::SurveyCorrection& result) {
+    if (const auto* const network = result.as<model::NetworkPart>())
+        return network->held_sites.size();
+    std::set<std::string> sites;
+    for (const model::CorrectedRow& row : result.rows)
+        if (row.is_used && row.row.reference) sites.insert(row.row.site);
+    return sites.size();
+}
 
 std::vector<Finding> find_mistakes(const model::SurveyCorrection& result,
                                    const SearchedSurvey& survey) {

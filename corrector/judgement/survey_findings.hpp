@@ -46,4 +46,11 @@ struct SearchedSurvey {
     const SearchedSurvey& survey, model::SurveyOptions options,
     const std::vector<reading::Finding>& known = {});
 
+/// Fewest stations from which the leave-one-station-out error says something.  Reason: the rms of
+/// five errors is known to a third, that of two to a half.
+inline constexpr std::size_t kFewestLeftOut = 5;
+
+/// Returns the number of stations on which this error rests: those whose reference the fit uses.
+[[nodiscard]] std::size_t left_out_count(const model::SurveyCorrection& result);
+
 }  // namespace a351::corrector::judgement

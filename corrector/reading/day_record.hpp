@@ -89,8 +89,8 @@ struct DayTemperature {
 ///
 /// With thermometer noise of 0.01 degC per sample the result is within 0.0015 degC of a ramp, also
 /// over a gap of 300 s (tests/unit/whole_day/day_record_test.cpp).
-/// @param decimated  temperature, kDecimationStages times decimated by kDecimationFactor, 0.1 to 40 Hz;
-///                   missing samples NaN.
+/// @param decimated  temperature at 1 / kDecimationRatio of the sensor's rate, 0.1 to 40 Hz; missing
+///                   samples NaN.
 /// @return the temperature from the first valid sample to the last; std::nullopt with less than ten
 ///         minutes of valid samples.  Gaps within a piece count as valid.
 /// @throws std::invalid_argument  as smooth(), at rates outside this range.

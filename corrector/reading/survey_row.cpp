@@ -119,9 +119,9 @@ std::vector<SurveyRow> read_observations(const std::filesystem::path& file,
                 row.given_tide_system = table.cell(i, "tide_system");
         }
         // Gravity on Earth is 976000-984000 mGal, biases are some thousands.
-        row.acceleration = MilliGal(
-            table.unrounded(i, "acceleration_mgal", text::kLeastDigit_mgal,
-                            is_of_gravimeter ? kLeastGravimeterReading_mgal : 900e3, 1100e3));
+        row.acceleration = MilliGal(table.unrounded(
+            i, "acceleration_mgal", is_of_gravimeter ? 0.001 : text::kMostOfLastDigit_mgal,
+            is_of_gravimeter ? kLeastGravimeterReading_mgal : 900e3, 1100e3));
         row.u_average = u_average(table, i);
         if (row.has_temperature)
             row.temperature = DegC(table.number(i, "temperature_degc", -60.0, 100.0));

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "corrector/judgement/reading_name.hpp"
+#include "corrector/judgement/survey_findings.hpp"
 #include "corrector/result/columns.hpp"
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/message.hpp"
@@ -22,26 +23,38 @@ std::string grade_in_words(Grade grade) {
     return std::string(text::translated(judgement::grade_name(grade), text::language()));
 }
 
-/// Greatest coverage factor for 95 % with which u says something: that of five degrees of freedom.
-/// With one it is 12.7, and u can be a tenth of the error.
+/// Coverage factor for 95 % of five degrees of freedom.  With one it is 12.7, and u can be a tenth
+/// of the error.
 constexpr double kMostCoverage = 2.58;
 
 /// Returns the uncertainty to be shown: that from the scatter if it is larger than stated.
-std::optional<MilliGal> model::StationValue::*shown_u(const model::SurveyCorrection& result) {
-    return judgement::scatters_more_than_stated(result) ? &model::StationValue::u_a_posteriori
-                                                        : &model::StationValue::u_gravity;
+std::optional<MilliGal> shown_u(const model::SurveyCorrection& result,
+                                const model::StationValue& station) {
+    return judgement::scatters_more_than_stated(result) && station.u_a_posteriori
+               ? station.u_a_posteriori
+               : station.u_gravity;
 }
 
 /// Returns u of the stations in ascending order.
-std::vector<double> uncertainties(const model::SurveyCorrection& result) {
+/// @param with_held  also of those that a network holds, which is that of their references.
+std::vector<double> uncertainties(const model::SurveyCorrection& result, bool with_held) {
+    const auto* const network = result.as<model::NetworkPart>();
     std::vector<double> values;
     for (const model::StationValue& station : result.stations)
-        if (const auto& u = station.*shown_u(result)) values.push_back(u->value());
+        if (const auto u = shown_u(result, station);
+            u && (with_held || network == nullptr ||
+                  std::ranges::count(network->held_sites, station.site) == 0))
+            values.push_back(u->value());
     std::ranges::sort(values);
     return values;
 }
 
+/// Returns false if u comes from fewer than five degrees of freedom.
 bool is_u_known(const model::SurveyCorrection& result) {
+    constexpr std::size_t kFewestDof = 5;
+    const auto* const network = result.as<model::NetworkPart>();
+    if (network != nullptr)
+        return !judgement::scatters_more_than_stated(result) || network->dof >= kFewestDof;
     return std::ranges::none_of(result.stations, [](const model::StationValue& station) {
         return station.coverage_factor > kMostCoverage;
     });
@@ -52,10 +65,6 @@ std::string counted_stations(const model::SurveyCorrection& result) {
     return count == 1 ? tr("One station") : tr("{} stations", count);
 }
 
-/// Fewest known stations whose error, each left out, is the error to expect.  Reason: the rms of five
-/// errors is known to a third, that of two to a half.
-constexpr std::ptrdiff_t kFewestLeftOut = 5;
-
 bool is_left_out(const model::StationValue& station) {
     return station.left_out && station.reference;
 }
@@ -64,11 +73,11 @@ std::string accuracy(const model::SurveyCorrection& result) {
     const std::string stations = counted_stations(result);
     const auto loso = result.score.loso_mgal;
     const std::string error = loso ? text::fixed(*loso, text::decimals_for(loso)) : "";
-    const auto left_out = std::ranges::count_if(result.stations, is_left_out);
-    if (loso && left_out >= kFewestLeftOut)
+    const std::size_t left_out = judgement::left_out_count(result);
+    if (loso && left_out >= judgement::kFewestLeftOut)
         return tr("{}; a new one is known to +- {} mGal (each known station left out).", stations,
                   error);
-    const std::vector<double> u = uncertainties(result);
+    const std::vector<double> u = uncertainties(result, false);
     if (u.empty() || !is_u_known(result))
         return tr("{}; this model and these readings do not show how well a new one is known.",
                   stations);
@@ -99,10 +108,21 @@ Column<model::StationValue> difference_column(const model::SurveyCorrection& res
                              : text::marked("Gravity - reference, in sample")}};
 }
 
+/// Returns the grades without a doubt about the survey as a whole, which is a finding or a note.
+std::vector<ReadingGrade> own_grades(std::vector<ReadingGrade> grades) {
+    for (ReadingGrade& one : grades) {
+        std::erase_if(one.reasons, [](const judgement::Reason& reason) {
+            return reason.code == judgement::kOfWholeSurvey;
+        });
+        if (one.reasons.empty()) one.grade = Grade::trust;
+    }
+    return grades;
+}
+
 }  // namespace
 
 int decimals_of(const model::SurveyCorrection& result) {
-    const std::vector<double> u = uncertainties(result);
+    const std::vector<double> u = uncertainties(result, true);
     return text::decimals_for(u.empty() ? std::nullopt : std::optional(u[u.size() / 2]));
 }
 
@@ -112,7 +132,9 @@ int decimals_of(const model::Coefficient& coefficient) {
                                       : kWithoutError;
 }
 
-std::string answer(const model::SurveyCorrection& result, const std::vector<ReadingGrade>& grades) {
+std::string answer(const model::SurveyCorrection& result,
+                   const std::vector<ReadingGrade>& all_grades) {
+    const std::vector<ReadingGrade> grades = own_grades(all_grades);
     const bool is_unusable = std::ranges::count(result.findings, reading::FindingKind::unusable_day,
                                                 &reading::Finding::kind) > 0;
     std::string text =
@@ -138,7 +160,9 @@ std::string answer(const model::SurveyCorrection& result, const std::vector<Read
     if (!urgent.empty()) text += ' ' + tr("Repeat: {}.", text::joined(urgent));
     if (!optional.empty())
         text += ' ' + tr("If there is time, repeat: {}.", text::joined(optional));
-    if (!has_findings && urgent.empty() && optional.empty()) text += ' ' + tr("Nothing to repeat.");
+    if (!has_findings && urgent.empty() && optional.empty() &&
+        !judgement::scatters_more_than_stated(result))
+        text += ' ' + tr("Nothing to repeat.");
     return text;
 }
 
@@ -146,7 +170,11 @@ Table answer_table(const model::SurveyCorrection& result, const std::vector<Read
     using Row = model::StationValue;
     std::vector<Column<Row>> columns =
         with_keys(station_columns(result.stations), {"site", "n", "gravity_mgal"});
-    columns.push_back({"u", of(shown_u(result)), {text::marked("u mGal"), 2}});
+    const bool is_known = is_u_known(result);
+    const auto u = [&](const Row& station) {
+        return is_known ? cell(shown_u(result, station)) : Cell();
+    };
+    columns.push_back({"u", u, {text::marked("u mGal"), 2}});
     columns.push_back(difference_column(result));
     columns = with_decimals(columns, decimals_of(result));
     const auto mark = [&](const Row& station) {
@@ -157,7 +185,8 @@ Table answer_table(const model::SurveyCorrection& result, const std::vector<Read
 }
 
 std::vector<std::string> notes(const model::SurveyCorrection& result,
-                               const std::vector<ReadingGrade>& grades) {
+                               const std::vector<ReadingGrade>& all_grades) {
+    const std::vector<ReadingGrade> grades = own_grades(all_grades);
     std::vector<std::string> list;
     std::map<std::string, std::vector<std::string>> without_value;
     for (const reading::LeftOut& stay : result.left_out)
@@ -170,16 +199,10 @@ std::vector<std::string> notes(const model::SurveyCorrection& result,
         });
     };
     for (const Grade grade : {Grade::repeat, Grade::care})
-        for (std::size_t i = 0; i < grades.size(); ++i) {
-            ReadingGrade own = grades[i];
-            // A doubt about all readings is a finding, or said once below.
-            std::erase_if(own.reasons, [](const judgement::Reason& reason) {
-                return reason.code == judgement::kOfWholeSurvey;
-            });
-            if (own.grade == grade && !own.reasons.empty() && !is_found(own))
+        for (std::size_t i = 0; i < grades.size(); ++i)
+            if (grades[i].grade == grade && !is_found(grades[i]))
                 list.push_back(tr("{}, {}: {}.", judgement::reading_name(result.rows, i),
-                                  grade_in_words(grade), judgement::reason_in_words(own)));
-        }
+                                  grade_in_words(grade), judgement::reason_in_words(grades[i])));
     if (judgement::scatters_more_than_stated(result))
         list.push_back(
             tr("The readings scatter more than stated (global test failed): look for a fault."));

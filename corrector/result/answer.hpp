@@ -26,9 +26,9 @@ namespace a351::corrector::result {
 /// Returns the first sentences: number of stations, error of a new one, what to repeat.
 ///
 /// The error is the leave-one-station-out error; with fewer than five known stations it is the range
-/// of u, unless that comes from fewer than five degrees of freedom.  Findings that
-/// are no remarks must be looked at first; if one proposes an amendment or the day is not usable, nothing is said to
-/// repeat.
+/// of u, unless that comes from fewer than five degrees of freedom.  Findings that are no remarks
+/// must be looked at first; if one proposes an amendment or the day is not usable, nothing is said
+/// to repeat.
 /// @param grades  from grade_readings() of this result.
 [[nodiscard]] std::string answer(const model::SurveyCorrection& result,
                                  const std::vector<judgement::ReadingGrade>& grades);

@@ -34,11 +34,11 @@ namespace a351::corrector::result {
 
 /// Returns the occupations as the CSV that GSadjust imports as "csv".
 ///
-/// Tide, height, air pressure, tilt, temperature and rate are corrected.  Drift is not, because GSadjust estimates it.  Each
+/// Tide, height, air pressure, tilt, temperature and rate are corrected.  Drift is not, because
+/// GSadjust estimates it, nor is the flicker of the whole-day model (export_files_test.cpp).  Each
 /// occupation has two lines, value - u and value + u, because GSadjust takes the standard deviation
 /// of a station from the scatter of its lines.  Excluded occupations are comments, and so are
-/// flagged ones with SurveyOptions::use_flags.  Tilt is corrected too, and the flicker of the
-/// whole-day model is not (export_files_test.cpp).
+/// flagged ones with SurveyOptions::use_flags.
 ///
 /// - u is CorrectedRow::u_corrected, or 2 mGal if the fit has none.
 /// - The tide column is the correction that was added, -tide, so that GSadjust can replace it.

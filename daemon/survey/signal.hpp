@@ -47,9 +47,10 @@ inline constexpr const char* kChecked = "checked";
 
 /// The plan of a running stay: `planned` set-ups of equal length.
 struct SetUpPlan {
-    int running = 1;      ///< Number of the set-up that runs, from 1.
-    int planned = 1;      ///< Planned set-ups.
-    double left_s = 0.0;  ///< Seconds left in the set-up; in one beyond the plan, in the stay.
+    int running = 1;  ///< Number of the set-up that runs, from 1.
+    int planned = 1;  ///< Planned set-ups.
+    /// Seconds left in the set-up; in the last one, or beyond the plan, not less than in the stay.
+    double left_s = 0.0;
     bool is_disturbed = false;  ///< Time was added, because too much signal was disturbed.
 
     [[nodiscard]] bool needs_next() const { return left_s == 0.0 && running < planned; }
@@ -58,9 +59,9 @@ struct SetUpPlan {
 
 /// Returns the place in a plan.
 ///
-/// A set-up is complete after its planned length, and the last one not before the length of the stay,
-/// if half of that was undisturbed.  Reason: half the
-/// length has an error larger by 4 %.
+/// A set-up is complete after its planned length, if half of this length was undisturbed.  Reason:
+/// half the length has an error larger by 4 to 8 %.  The last one is not complete before the planned
+/// length of the stay.
 /// @param length_s  planned length of all set-ups together.
 /// @param stay_s    seconds since the start of the stay.
 /// @param set_up_s  seconds since the start of the running set-up.

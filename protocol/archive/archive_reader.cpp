@@ -13,7 +13,6 @@
 #include "protocol/archive/record_file.hpp"
 #include "protocol/archive/record_joiner.hpp"
 #include "protocol/archive/sds.hpp"
-#include "protocol/files/file_bytes.hpp"
 
 namespace a351::archive {
 
@@ -32,13 +31,13 @@ bool continues(const ChannelData& data, UtcTime start, double rate_hz) {
 /// The records of a day file so far, to find those that are there twice.
 class RecordsSeen {
 public:
-    explicit RecordsSeen(const fs::path& file) : file_(file) {}
+    explicit RecordsSeen(RecordFile& file) : file_(file) {}
 
     /// Returns false if the record at `offset` was seen before, maybe with another number.
     [[nodiscard]] bool is_new(UtcTime start, std::uint64_t offset) {
         constexpr std::size_t kNumber = 6;  // digits of the record's number, which begin it
         const auto body = [this](std::uint64_t record) {
-            return files::read_bytes(file_, record + kNumber, kRecordSize - kNumber);
+            return file_.bytes(record + kNumber, kRecordSize - kNumber);
         };
         // In a file of one recorder the times ascend, and nothing is compared.
         auto at = std::ranges::lower_bound(seen_, start, {}, &Seen::start);
@@ -53,7 +52,7 @@ private:
         UtcTime start;
         std::uint64_t offset = 0;
     };
-    const fs::path& file_;
+    RecordFile& file_;
     std::vector<Seen> seen_;  ///< Ascending.
 };
 
@@ -164,7 +163,7 @@ ChannelData read_records(const fs::path& archive, const journal::StationCodes& c
     for (const auto& file :
          day_files(archive, codes, channel, from, to)) {  // no record crosses midnight
         RecordFile records(file, channel);
-        RecordsSeen seen(file);
+        RecordsSeen seen(records);
         joiner.expect(records.size() / kRecordSize);
         while (true) {
             const auto found = records.next();

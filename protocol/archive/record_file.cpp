@@ -1,9 +1,9 @@
 #include "protocol/archive/record_file.hpp"
 
 #include <algorithm>
+#include <cerrno>
+#include <system_error>
 #include <utility>
-
-#include "protocol/files/file_bytes.hpp"
 
 namespace a351::archive {
 namespace {
@@ -15,13 +15,22 @@ constexpr std::uint64_t kPieceSize = 1U << 16U;
 
 RecordFile::RecordFile(std::filesystem::path file, std::string channel)
     : file_(std::move(file)),
+      in_(file_, std::ios::binary),
       channel_(std::move(channel)),
       size_(std::filesystem::file_size(file_)) {}
+
+std::vector<std::byte> RecordFile::bytes(std::uint64_t offset, std::uint64_t count) {
+    std::vector<std::byte> read(count);
+    in_.seekg(static_cast<std::streamoff>(offset));
+    in_.read(reinterpret_cast<char*>(read.data()), static_cast<std::streamsize>(count));
+    if (!in_) throw std::system_error(EIO, std::generic_category(), "read " + file_.string());
+    return read;
+}
 
 std::optional<FoundRecord> RecordFile::next() {
     while (next_ == found_.size() && read_to_ < size_) {
         const std::uint64_t begin = read_to_;
-        const auto piece = files::read_bytes(file_, begin, std::min(kPieceSize, size_ - begin));
+        const auto piece = bytes(begin, std::min(kPieceSize, size_ - begin));
         found_ = find_records(piece, channel_);
         next_ = 0;
         for (FoundRecord& one : found_) one.offset += begin;

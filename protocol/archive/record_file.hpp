@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,8 +16,8 @@ namespace a351::archive {
 ///     RecordFile records(file, "BNZ");
 ///     while (const auto found = records.next()) use(found->record);
 ///
-/// The file is read in pieces: memory for a whole day at 50 Hz costs more time than its records need to
-/// be decoded.  It may grow meanwhile; what is behind the size at the start is not read.
+/// The file is read in pieces: memory for a whole day at 50 Hz costs more time than its records
+/// need to be decoded.  It may grow or be replaced meanwhile; what it had at the start is read.
 class RecordFile {
 public:
     /// @throws std::filesystem::filesystem_error  there is no such file.
@@ -29,15 +30,20 @@ public:
     /// @throws std::system_error  the file cannot be read.
     std::optional<FoundRecord> next();
 
-    /// Returns the bytes before the record that next() returned, back to the one before it, or to the
-    /// end of the file if it returned none.
+    /// Returns the number of bytes between the record that next() returned, or the end of the file,
+    /// and the record before it.
     [[nodiscard]] std::uint64_t skipped() const { return skipped_; }
 
-    /// Returns the offset of these bytes.
+    /// Returns bytes of the file.
+    /// @throws std::system_error  they cannot be read.
+    [[nodiscard]] std::vector<std::byte> bytes(std::uint64_t offset, std::uint64_t count);
+
+    /// Returns the offset of the bytes that were skipped.
     [[nodiscard]] std::uint64_t skipped_at() const { return skipped_at_; }
 
 private:
     std::filesystem::path file_;
+    std::ifstream in_;
     std::string channel_;
     std::uint64_t size_;
     std::uint64_t read_to_ = 0;       ///< Offset up to which records are found.

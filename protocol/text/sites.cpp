@@ -112,7 +112,7 @@ std::vector<Site> parse_sites(std::string_view text, const std::filesystem::path
                   std::nullopt,
                   is_placed[row]};
         if (!table.cell(row, "gravity_mgal").empty())
-            site.gravity = MilliGal(table.unrounded(row, "gravity_mgal", kLeastDigit_mgal,
+            site.gravity = MilliGal(table.unrounded(row, "gravity_mgal", kMostOfLastDigit_mgal,
                                                     kLeastGravity_mgal, kGreatestGravity_mgal));
         constexpr double kLeastReliable_mgal = 100.0;  // worse than any map of gravity anomalies
         if (const auto u =

@@ -18,8 +18,8 @@
 
 namespace a351::text {
 
-/// What the last digit of a gravity or a reading with an exponent may be worth, mGal.
-inline constexpr double kLeastDigit_mgal = 0.1;
+/// Most that the last digit of a gravity with an exponent may be worth, mGal.
+inline constexpr double kMostOfLastDigit_mgal = 0.1;
 /// Limits of a reference, mGal.  Gravity on the Earth's surface is 976 400 (Huascaran) to 983 400
 /// mGal (Arctic Ocean).
 inline constexpr double kLeastGravity_mgal = 976000.0, kGreatestGravity_mgal = 984000.0;

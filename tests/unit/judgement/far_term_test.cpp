@@ -178,9 +178,9 @@ TEST_CASE("readings too far from gravity for any bias are named, but not those o
     CHECK_FALSE(found(979800.0 + 13700.0));
     REQUIRE(found(979800.0 - 13800.0));
     CHECK_THAT(found(979800.0 - 13800.0)->text.english(),
-               StartsWith("the readings are 13800 mGal below gravity"));
+               StartsWith("the bias of the readings comes out as -13800 mGal"));
     CHECK_THAT(found(979800.0 - 13800.0, -1)->text.english(),
-               StartsWith("the readings are 13800 mGal above gravity"));
+               StartsWith("the bias of the readings comes out as 13800 mGal"));
     CHECK_FALSE(found(4123.0));
     CHECK_FALSE(judgement::far_bias({}));
 }

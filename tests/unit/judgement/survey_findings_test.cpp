@@ -180,6 +180,16 @@ TEST_CASE("a day that no mistake explains is not usable either", "[mistake]") {
     CHECK(findings[0].amendment.empty());
     CHECK_THAT(findings[0].text.english(),
                ContainsSubstring("check times, names, signs and units"));
+
+    // References that are as uncertain as that explain it, and four stations are too few.
+    for (reading::SurveyRow& row : day.rows) row.u_reference = MilliGal(500.0);
+    CHECK(std::ranges::count(kinds(day.findings()), "unusable_day") == 0);
+    for (reading::SurveyRow& row : day.rows) {
+        row.u_reference.reset();
+        if (row.site != "B" && row.site != "S1" && row.site != "S2" && row.site != "S3")
+            row.reference.reset();
+    }
+    CHECK(std::ranges::count(kinds(day.findings("t")), "unusable_day") == 0);
 }
 
 TEST_CASE("a site that does not fit the others is a remark", "[mistake]") {

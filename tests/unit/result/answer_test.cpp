@@ -53,7 +53,10 @@ TEST_CASE(
     CHECK(answer(result, all_good(result)) ==
           "8 stations; a new one is known to +- 1.7 mGal (each known station left out). Nothing to "
           "repeat.");
-    for (std::size_t k = 4; k < result.stations.size(); ++k) result.stations[k].left_out.reset();
+    // The fit does not use the references of the other stations.
+    for (CorrectedRow& row : result.rows)
+        for (std::size_t k = 4; k < result.stations.size(); ++k)
+            if (row.row.site == result.stations[k].site) row.is_used = false;
     CHECK_THAT(answer(result, all_good(result)),
                StartsWith("8 stations; u is 1.5 to 1.5 mGal. Only 4 known stations could be left "
                           "out to test it: they are off by 1.7 mGal rms."));
@@ -120,11 +123,13 @@ TEST_CASE("u is that of the scatter if the readings scatter more than stated", "
         station.u_a_posteriori = MilliGal(40.0);
     }
     NetworkPart part;
-    part.dof = 4;
-    part.weighted_square = 11.0;
-    part.chi_square_high = 11.1;
+    part.dof = 6;
+    part.weighted_square = 14.0;
+    part.chi_square_high = 14.4;
+    part.held_sites = {result.stations[0].site};
     result.own = part;
     const auto table = [&] { return answer_table(result, grade_readings(result)); };
+    REQUIRE(table().headings[3] == "u mGal");
     CHECK(std::stod(table().rows[0][3]) == 0.5);
     part.weighted_square = 100.0;
     result.own = part;
@@ -135,7 +140,13 @@ TEST_CASE("u is that of the scatter if the readings scatter more than stated", "
               return note.find("scatter more than stated") != std::string::npos;
           }) == 1);
     result.score.loso_mgal.reset();
+    result.stations[0].u_a_posteriori = MilliGal(0.1);  // held, so it is not that of a new one
     CHECK_THAT(answer(result, grade_readings(result)), StartsWith("8 stations; u is 40 to 40"));
+    CHECK_THAT(answer(result, grade_readings(result)), !EndsWith("Nothing to repeat."));
+    part.dof = 4;
+    result.own = part;
+    CHECK_THAT(answer(result, grade_readings(result)), ContainsSubstring("do not show how well"));
+    CHECK(table().headings[3] != "u mGal");
 }
 
 TEST_CASE("the difference of a station is measured minus reference", "[result][answer]") {
