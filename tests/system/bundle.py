@@ -80,8 +80,9 @@ with Scratch() as scratch:
         told_at(session, stay["end_utc"], "stop")
         if stay is stays[3]:
             (scratch / "stick").mkdir()
-            together(lambda: bundle(session, scratch / "one.tar"), lambda: bundle(session, scratch / "stick"))
             frames = session.status()["counters"]["frames"]
+            together(lambda: bundle(session, scratch / "one.tar"), lambda: bundle(session, scratch / "stick"))
+            demand("meanwhile the daemon has recorded", session.status()["counters"]["frames"] > frames)
             (in_stick,) = (scratch / "stick").iterdir()
             demand(f"in a folder the copy gets the name of the day: {in_stick.name}",
                    in_stick.name.startswith("XX_A351_2017071") and in_stick.name.endswith("Z.tar"))
@@ -90,7 +91,6 @@ with Scratch() as scratch:
                 run(BIN / "a351-correct", "survey", folder)
                 demand("the corrector takes the folder of a day that is not over",
                        len({row["site"] for row in rows(folder / "result" / "occupations.csv")}) >= 3)
-            demand("meanwhile the daemon has recorded", session.status()["counters"]["frames"] > frames)
 
     demand("the emulator sends the rest of its day and ends cleanly", session.sim.wait(timeout=1800) == 0)
     wait_for("the archive has everything", lambda: session.status()["archived"] == session.status()["received"], 60)
