@@ -101,7 +101,7 @@ void plot_samples(Panel& panel, const model::SurveyCorrection& result,
         panel.series.push_back({Look::thin_line,
                                 Colour::blue,
                                 "",
-                                {5, 2},
+                                {5, 2},  // time and acceleration, minus that of the reading
                                 source_of(reading_figure_name(record.row), 0)});
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "corrector/judgement/closure.hpp"
+#include "corrector/judgement/far_terms.hpp"
 #include "corrector/judgement/reading_name.hpp"
 #include "protocol/signal/median.hpp"
 #include "protocol/text/aligned_text.hpp"
@@ -86,7 +87,8 @@ void add_findings(std::vector<Contradiction>& all, const model::SurveyCorrection
         const bool is_of_reading =
             finding.kind == FindingKind::other_name || finding.kind == FindingKind::reference ||
             finding.kind == FindingKind::step || finding.kind == FindingKind::bad_reading ||
-            (finding.kind == FindingKind::scale && finding.code != "far_bias");
+            // A wrong unit is of the whole day, and no reading at this benchmark can clear it up.
+            (finding.kind == FindingKind::scale && finding.code != kFarBiasCode);
         if (!is_of_reading) continue;
         // Without a key, the code says which one.
         const std::string code = finding.key.empty() && finding.time

@@ -71,8 +71,7 @@ reading::Finding far_term(const model::Fit& fit, const model::Coefficient& term,
     reading::Finding finding{.kind = reading::FindingKind::scale, .code = "term_far_from_prior"};
     finding.text = text::message(
         "{} comes out as {}, {} standard deviations from its prior {} +- {}{}: look for a mistake "
-        "in "
-        "the readings, or give the instrument's own value as prior",
+        "in the readings, or give the instrument's own value as prior",
         name_of(fit, term), text::fixed(term.value, 5), text::fixed(term.deviations(), 1),
         text::shortest(term.prior->mean), text::shortest(term.prior->sd),
         is_held(term, given) ? text::message(", and is held there") : text::Message());
@@ -88,7 +87,7 @@ std::optional<reading::Finding> far_bias(const std::vector<model::CorrectedRow>&
     const double bias_mgal = signal::median(std::move(biases_mgal));
     if (!(std::abs(bias_mgal) > to_milligal(kFarBias).value())) return std::nullopt;
     reading::Finding finding{
-        .kind = reading::FindingKind::scale, .code = "far_bias", .is_headline = true};
+        .kind = reading::FindingKind::scale, .code = kFarBiasCode, .is_headline = true};
     finding.text = text::message(
         "the bias of the readings comes out as {} mGal, more than twice what the data sheet allows "
         "(7 mg): check their unit, and the sensitivity in the metadata",

@@ -38,6 +38,9 @@ inline constexpr double kFarTerm = 4.0;
 [[nodiscard]] reading::Finding far_term(const model::Fit& fit, const model::Coefficient& term,
                                         const adjustment::Priors& given);
 
+/// Code of the finding of far_bias().
+inline constexpr const char* kFarBiasCode = "far_bias";
+
 /// Returns a finding of the kind `scale` if readings near 1 g are farther from their references
 /// than any bias explains: they have another unit, or the sensitivity is wrong.  Other readings are
 /// those of a gravimeter with an offset of its own.

@@ -81,9 +81,8 @@ struct ReadingGrade {
 ///   is.
 /// - Two readings of a station: both get `care` if they differ by more than 2 sqrt(2) s (`day`:
 ///   placement).  Readings that have `repeat` for another reason are not compared.
-///
-/// - A day that is not usable, or a network that fails the global test with more than
-///   twice the scatter stated: all `care`.
+/// - A day that is not usable, or a network that fails the global test with more than twice the
+///   scatter stated: all `care`.
 ///
 /// A value exactly at its limit is trusted (reading_grade_test.cpp).
 /// @param result  rows in ascending time, with coefficients, score and stations.
