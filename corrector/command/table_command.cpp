@@ -94,6 +94,10 @@ void correct_table(TableOptions options) {
          {std::pair("tide", survey.tide.series), std::pair("pressure", survey.reduction.pressure)})
         if (!file.empty()) sources.inputs.push_back(text::describe_input(role, file));
     sources.warnings = reading::position_warnings(rows, sites);
+    const std::vector<text::Message> far = reading::time_warnings(rows);
+    sources.warnings.insert(sources.warnings.end(), far.begin(), far.end());
+    if (auto doubt = tide::doubtful_tide(rows, sites, survey.tide); !doubt.empty())
+        sources.warnings.push_back(std::move(doubt));
     sources.warnings.insert(sources.warnings.end(), reduced.begin(), reduced.end());
     sources.figures = options.figures;
     nlohmann::ordered_json settings;

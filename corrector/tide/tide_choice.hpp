@@ -104,6 +104,17 @@ void set_tide_system(Choice& choice, const std::string& text, const std::string&
 void apply_tide(std::vector<reading::SurveyRow>& rows, const std::vector<text::Site>& sites,
                 const Choice& choice, reading::DayRecord* day = nullptr);
 
+/// Returns a warning if a tide that is not computed, `given` or a series, is not that of the times and
+/// places of the rows, with the largest difference from direct_tide() and whether the other sign fits.
+///
+/// The mean difference is left out, because the permanent tide in it is not known.  Limit: 0.03 mGal,
+/// above ocean loading (0.01 at most coasts) and other models; the tide of another sign or of some hours
+/// later differs by 0.1 to 0.2.
+/// @param rows  after apply_tide(); those of sites without a position are left out.
+[[nodiscard]] text::Message doubtful_tide(const std::vector<reading::SurveyRow>& rows,
+                                          const std::vector<text::Site>& sites,
+                                          const Choice& choice);
+
 /// Adds source, model, sign and factors of the tide to the settings of a result.  The factors are
 /// null if the tide is not computed.
 /// The keys are tide, tide_model, tide_sign, tide_system, permanent_tide, delta2 and delta3.  Keys that exist are

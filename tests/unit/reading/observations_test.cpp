@@ -101,6 +101,25 @@ TEST_CASE("a bad table of observations is refused with line, column and value",
     CHECK_THROWS_AS(file.read(), InputError);
 }
 
+TEST_CASE("a row far from all others in time is named, rows of a series of single readings are not",
+          "[survey][observations]") {
+    const auto warnings = [](const std::string& second, const std::string& last) {
+        std::string rows = kTableHeader;
+        for (const std::string& time : {std::string("2020-03-01T00:00:00Z"), second,
+                                        std::string("2020-03-01T02:00:00Z"), last})
+            rows += "A,1,0," + time + ",0,981700,42.5\n";
+        return time_warnings(TableFile(rows).read());
+    };
+    CHECK(warnings("2020-03-01T01:00:00Z", "2020-03-31T02:00:00Z").empty());
+    const auto of_year = warnings("2010-03-01T01:00:00Z", "2020-03-01T03:00:00Z");
+    REQUIRE(of_year.size() == 1);
+    CHECK(of_year[0].english() ==
+          "A (1): 2010-03-01T01:00:00Z is more than 3652 days from every other reading: check its "
+          "year and month");
+    CHECK(warnings("2020-03-01T01:00:00Z", "2020-04-01T02:00:00Z").size() == 1);
+    CHECK(warnings("2010-03-01T01:00:00Z", "2020-04-01T02:00:00Z").empty());
+}
+
 TEST_CASE("the scatter of an average is that of its readings divided by the root of their number",
           "[survey][observations]") {
     const std::string line = "A,1,2020-01-01T00:00:00Z,979800,42.5,";

@@ -188,6 +188,33 @@ TEST_CASE("the settings name the tide's source, model, factors and sign", "[surv
     CHECK_THROWS_WITH(set_tide_option(choice, "moon"), ContainsSubstring("--tide = moon: neither"));
 }
 
+TEST_CASE("a given tide of another sign, time or place is named; another permanent tide is not",
+          "[survey][tide_series]") {
+    const text::Site site{"A", Degrees(140.0), Degrees(36.0), Metres(10.0), MilliGal(979900.0)};
+    const auto doubt = [&site](double factor, Nanoseconds shift, double added_mgal,
+                               const std::string& source) {
+        std::vector<SurveyRow> rows;
+        for (int hour = 0; hour < 10; ++hour) {
+            SurveyRow& row = rows.emplace_back();
+            row.site = "A";
+            row.occupation = hour + 1;
+            row.time = kStart + std::chrono::hours(hour);
+            const tide::Station station{site.latitude, site.longitude, site.altitude};
+            row.tide = MilliGal(factor * direct_tide(row.time + shift, station).value() + added_mgal);
+        }
+        return doubtful_tide(rows, {site}, {source, {}, {}}).english();
+    };
+    CHECK(doubt(1.2 / 1.16, 0s, 0.06, "given").empty());
+    CHECK(doubt(0.0, 0s, 0.0, "none").empty());
+    CHECK_THAT(doubt(-1.0, 0s, 0.0, "given"),
+               StartsWith("the tide given is not that of these times and places: it differs from "
+                          "the computed one by up to 0.") &&
+                   EndsWith("; with the other sign it fits. It is used as it is"));
+    CHECK_THAT(doubt(1.0, 9h, 0.0, "given"),
+               ContainsSubstring("at A (") && EndsWith(": check its sign, the times and the "
+                                                       "positions. It is used as it is"));
+}
+
 TEST_CASE("a tide that the survey declares as given must be in the table",
           "[survey][observations]") {
     const std::vector<text::Site> sites{
