@@ -2,9 +2,9 @@
 
     A351_LONG=1 python3 tests/system/arm64.py [bookworm|trixie]     default: the suite of this host
 
-Runs the unit and golden tests, compares the files of the programs with those of amd64, runs the emulator and makes the
-packages.  Needs root, debootstrap, a Debian mirror and an amd64 host.  Nothing is compiled under qemu.  The amd64 programs
-are compiled from the same tree in the same root.
+Runs the unit and golden tests, compares the files of the programs with those of amd64, and makes the packages.  Needs root,
+debootstrap, a Debian mirror and an amd64 host.  Nothing is compiled under qemu.  The amd64 programs are compiled from the
+same tree in the same root.
 """
 
 import os
@@ -29,10 +29,6 @@ GOLDEN = "/a351/tests/golden/tsukuba"
 # the C library computes as on arm64 (methods.md).  In the model `day` a leave-one-station-out search can end one grid step
 # apart; loso_mgal then differed by 4e-5 (measured).
 LIMITS = {(f"survey/{model}/{file}", "loso_mgal"): 1e-4 for model in ("auto", "day") for file in ("models.csv", "result.json")}
-
-# System tests that are also run with the arm64 programs.  A351_PRESET_SANITIZE adapts them to slow programs.  None of them
-# has a daemon at a port, because libserialport calls TCGETS2, which qemu 7.2 does not implement.
-TOGETHER = ["transcripts.py"]
 
 
 def install(root, suite):
@@ -86,27 +82,6 @@ def compare(amd64, arm64):
         demand(f"{folder}: {count - len(found)} of {count} files are byte for byte the same as on amd64", count > 0)
 
 
-def wrap(root):
-    """Writes a script for each program that starts it under qemu, for tests that know nothing of qemu."""
-    for folder in ("bin", "tests"):
-        (root / "arm64" / folder).mkdir(parents=True)
-        for program in (root / "a351/build/arm64" / folder).iterdir():
-            if program.is_file() and os.access(program, os.X_OK) and program.suffix != ".so":
-                script = root / "arm64" / folder / program.name
-                script.write_text(f'#!/bin/sh\nexec {QEMU} /a351/build/arm64/{folder}/{program.name} "$@"\n')
-                script.chmod(0o755)
-
-
-def together(root):
-    wrap(root)
-    for test in TOGETHER:
-        began = time.monotonic()
-        said = inside(root, "export A351_BIN=/arm64/bin A351_TOOLS=/arm64/tests A351_PRESET_SANITIZE=slow && "
-                      f"cd /a351/tests/system && python3 {test}")
-        print("\n".join(line for line in said.splitlines() if line.startswith("holds: "))[-1500:])
-        print(f"{test} with the programs for arm64: {time.monotonic() - began:.0f} s")
-
-
 def packages(root, suite):
     inside(root, "cd /a351/build/arm64 && cpack -B /debs")
     debs = sorted((root / "debs").glob("*.deb"))
@@ -137,5 +112,4 @@ with Scratch() as scratch:
     build(root)
     compare(make_files(root, "release", ""), make_files(root, "arm64", QEMU))
     unit_and_golden(root)
-    together(root)
     packages(root, suite)

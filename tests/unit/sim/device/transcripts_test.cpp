@@ -1,5 +1,5 @@
 // The conversations of tests/golden/transcripts, on a clock that only the test moves.  The README there
-// describes their language; tests/system/transcripts.py plays some of them over a terminal.
+// describes their language.
 
 #include <algorithm>
 #include <chrono>
