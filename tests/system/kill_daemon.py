@@ -10,7 +10,7 @@ the daemon configures the sensor again.  Both are correct at 20x; at factor 1 so
 The limits are for the daemon, not for the host: a session whose emulator was delayed by the host is repeated, and if all
 repetitions are delayed, the test is skipped.
 
-A kill loses nothing that was handed to the kernel, so the data may be in memory; disk_faults.py tests disks that stall.
+A kill loses nothing that was handed to the kernel, so the data may be in memory.
 """
 
 import collections
