@@ -38,7 +38,7 @@ COMMANDS = [
     [*PYTHON, HERE / "system_bench.py"], [*PYTHON, HERE / "speed.py", *(["--beside", options.beside] if options.beside else [])],
     ["env", "A351_LONG=1", TOOLS / "timing_test", "times behind*"], [*PYTHON, TOP / "tests/system/kill_daemon.py"],
     [TOOLS / "daemon_test", "[power_cut]"], [*PYTHON, TOP / "tests/system/same_bytes.py"],
-    *([*PYTHON, TOP / "tests/system" / f"{name}.py"] for name in ("obspy_reads", "ringserver", "msi", "gsadjust", "stranger_reads")),
+    *([*PYTHON, TOP / "tests/system" / f"{name}.py"] for name in ("obspy_reads", "ringserver", "gsadjust", "stranger_reads")),
 ]
 
 DAY = r"{}, units within {} %, {} set-ups?\n(?:.*\n)*?    {}: ([\d.]+)"
@@ -73,7 +73,6 @@ PROMISES = [
     ("same input, same bytes", "kept", r"^same_bytes.py: (\w+)"),
     ("archive and StationXML open in ObsPy", "kept", r"^obspy_reads.py: (\w+)"),
     ("ringserver to slarchive, byte by byte", "kept", r"^ringserver.py: (\w+)"),
-    ("every sample read by msi, of libmseed's makers", "kept", r"^msi.py: (\w+)"),
     ("gsadjust.csv read by GSadjust", "kept", r"^gsadjust.py: (\w+)"),
     ("journal, miniSEED, events read by format pages alone", "kept", r"^stranger_reads.py: (\w+)"),
 ]
