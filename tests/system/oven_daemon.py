@@ -6,15 +6,12 @@ warning of its own, ends without a restart, and costs no sample of the sensor.  
 
 import json
 import struct
-import sys
 import urllib.request
 import xml.etree.ElementTree as ElementTree
 
 from emulated_session import Session, wait_for
-from programs import BIN, TOOLS, TOP, Scratch, daemon_config, daemon_status, demand, read_json, run, unused_port
-
-sys.path.insert(0, str(TOP / "tests" / "golden" / "logs"))
-import journal_page  # noqa: E402
+from programs import BIN, TOOLS, Scratch, daemon_config, daemon_status, demand, read_json, run, unused_port
+from stranger_journal import journal
 
 OVENS = """[oven]
 enabled = true
@@ -36,7 +33,7 @@ def polls(data, kind):
     """Returns (outcome, registers) of each poll of an oven in the journal, as the format page describes."""
     found = []
     for segment in sorted((data / "journal").glob("*.a351j")):
-        for of_chunk, payload in journal_page.chunks(segment):
+        for of_chunk, payload in journal(segment):
             if of_chunk == kind:
                 _, outcome, _, count = struct.unpack_from("<qBBB", payload)
                 found.append((OUTCOMES[outcome], struct.unpack_from(f"<{count}H", payload, 11)))

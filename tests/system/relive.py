@@ -5,10 +5,7 @@ import re
 import sys
 
 from programs import BIN, ONE_SITE, TOP, Scratch, demand, run
-
-sys.dont_write_bytecode = True
-sys.path.insert(0, str(TOP / "tests" / "golden" / "logs"))
-import journal_page  # noqa: E402
+from stranger_journal import RX, journal, received
 
 SPEED = 500
 # Three stays of the day; the emulator's own schedule of set-ups does not matter.
@@ -54,13 +51,8 @@ def events_of(root):
 
 
 def bytes_of(root):
-    received = bytearray()
-    for file in sorted((root / "journal").glob("*.a351j")):
-        for kind, payload in journal_page.chunks(file):
-            if kind == journal_page.RX:
-                for _, data in journal_page.reads(payload):
-                    received.extend(data)
-    return bytes(received)
+    return b"".join(data for file in sorted((root / "journal").glob("*.a351j")) for kind, payload in journal(file) if kind == RX
+                    for _, data in received(payload))
 
 
 def seconds(rfc3339):

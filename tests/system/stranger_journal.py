@@ -5,7 +5,7 @@ import re
 import struct
 
 PREAMBLE = b"A351JRNL\1\0\0\0"
-HEAD, UNKNOWN = 1, 10
+HEAD, RX, UNKNOWN = 1, 2, 10
 STRINGS = {"session": "[0-9a-f]{32}", "network": "[A-Z0-9]{1,2}", "station": "[A-Z0-9]{1,5}", "location": "([A-Z0-9]{2})?",
            **dict.fromkeys(("boot_id", "program_version", "profile", "product_id", "serial_number", "filter"), "(?s).*")}
 INTEGERS = "firmware", "output_rate_hz", "burst_ctrl", "baud"
@@ -138,6 +138,14 @@ def segment(data):
             break
         at, due = place, struct.unpack_from("<I", data, place + 5)[0]
     return [good for good in chunks if good[0] < UNKNOWN and good[0]], damage
+
+
+def received(payload):
+    """Returns (raw time in ns, bytes) of each read of an RX chunk."""
+    first, count = struct.unpack_from("<qI", payload)
+    reads = list(struct.iter_unpack("<Iq", payload[12:12 + 12 * count]))
+    data = payload[12 + 12 * count:]
+    return [(first + delta, data[begin:end]) for (begin, _), (end, delta) in zip([(0, 0)] + reads, reads)]
 
 
 def journal(file):

@@ -11,7 +11,8 @@ import pathlib
 import struct
 import sys
 
-import journal_page
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "system"))
+from stranger_journal import HEAD, RX, journal, received  # noqa: E402
 
 SIZE, RATE_HZ, STEP, WRAP, PERIOD = 24, 50, 80, 65536, 4096
 
@@ -71,12 +72,12 @@ def decode(stream):
 def read_log(file):
     """Samples and counters of a log of one session."""
     stream, ends = b"", []
-    for kind, payload in journal_page.chunks(file):
-        if kind == journal_page.HEAD:
+    for kind, payload in journal(file):
+        if kind == HEAD:
             header = json.loads(payload)
             assert header["burst_ctrl"] == 0xC703 and header["output_rate_hz"] == RATE_HZ
-        elif kind == journal_page.RX:
-            for time, data in journal_page.reads(payload):
+        elif kind == RX:
+            for time, data in received(payload):
                 stream += data
                 ends.append((len(stream), time))
     counters = dict(bytes=len(stream), frames=0, bytes_skipped=0, checksum_errors=0, framing_errors=0, gaps=0,
