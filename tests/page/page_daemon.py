@@ -4,7 +4,6 @@ Data must appear soon and follow the sensor closely, and an occupation must surv
 """
 
 import datetime
-import json
 import signal
 import time
 
@@ -108,7 +107,6 @@ def work_an_occupation(session, browser):
     browser.choose("start-site", "No.1")
     browser.wait_for("a return to the first site of the day is no warning", lambda: browser.text("start-warning") == "")
     add_a_site(session, browser)
-    change_stays(session, browser)
 
 
 def add_a_site(session, browser):
@@ -131,80 +129,6 @@ def add_a_site(session, browser):
     demand("one row was appended to the list", (session.scratch / "sites.csv").read_text() == before + "No.1b,140.12,36.2511,,\n")
     session.ctl("site", "add", "No.1c", "--latitude", "36.2", "--longitude", "140.1", "--height", "12", "--gravity", "979800.5")
     browser.wait_for("the page follows a site added in the terminal", lambda: "No.1c" in browser.text("start-site"))
-
-
-def later(rfc3339, seconds):
-    time_ = datetime.datetime.fromisoformat(rfc3339.replace("Z", "+00:00")) + datetime.timedelta(seconds=seconds)
-    return time_.strftime("%Y-%m-%dT%H:%M:%S.%f")[:-3] + "Z"
-
-
-def change_stays(session, browser):
-    """Each change hits the stay that its dialog names, also after late entries and changes by others."""
-    def press(site, word):
-        browser.run("""
-            const row = [...document.querySelectorAll("#day-rows tr[data-key]")].find((one) => one.innerText.includes(arguments[0]));
-            if (row.ariaExpanded !== "true") row.click();""", site)
-        browser.click(f"#day-{word.lower()}")
-
-    def stays():
-        return json.loads(session.ctl("list", "--json"))["occupations"]
-
-    first = stays()[0]
-    stopped = first["set_ups"][-1]["end"]
-    browser.wait_for("nine seconds after the stop are recorded",
-                     lambda: session.status()["sample"]["utc"] > later(stopped, 9.0), seconds=15.0)
-    session.ctl("start", "No.2", "--at", later(stopped, 6.0))
-    session.ctl("stop", "--at", later(stopped, 8.0))
-    # Entered last, for an earlier time.
-    session.ctl("start", "No.0", "--at", later(stopped, 1.0))
-    session.ctl("stop", "--at", later(stopped, 3.0))
-    last = stays()[-1]
-    browser.wait_for_text("day-rows", "No.0")  # The page follows the terminal without a reload.
-    browser.wait_for_text("day-rows", "No.2")
-
-    press("No.2", "Rename")
-    browser.wait_for_text("rename-text", "Choose the correct site for No.2 (stay 1)")
-    browser.choose("rename-site", "No.3")
-    browser.click("#rename-form [type=submit]")
-    browser.wait_for_text("answer", "renamed No.2 (stay 1)")
-    browser.wait_for_text("day-rows", "No.3")
-    demand("the stay entered last keeps its site", [one["site"] for one in stays()] == ["No.1", "No.0", "No.3"])
-
-    press("No.3", "Discard")
-    browser.wait_for_text("discard-text", "Discard No.3 (stay 1)")
-    session.ctl("rename", last["key"], "No.2")  # another operator, meanwhile
-    browser.click("#discard-yes")
-    browser.wait_for_text("discard-error", f"Not done: the stay {last['key']} is at No.2, not at No.3")
-    demand("nothing was discarded", len(stays()) == 3)
-    browser.click("#discard-no")
-    browser.wait_for_text("day-rows", "No.2")
-    press("No.2", "Discard")
-    browser.wait_for_text("discard-text", "Discard No.2 (stay 1)")
-    browser.find("#discard-reason").send_keys("wind")
-    browser.click("#discard-yes")
-    browser.wait_for_text("answer", "discarded No.2")
-    browser.wait_for_text("day-rows", "discarded")
-    browser.shot("real-discarded-1366")
-    demand("only the stay of the dialog was discarded", [one["site"] for one in stays()] == ["No.1", "No.0"])
-    press("No.2", "Restore")
-    browser.wait_for_text("answer", "restored No.2")
-    browser.wait_for("the stay is in the list again", lambda: "discarded" not in browser.text("day-rows"))
-
-    press("No.0", "Times")
-    browser.wait_for_text("times-text", "Correct the times of No.0 (stay 1)")
-    end = later(stopped, 5.0)[:19]
-    browser.run("document.getElementById('times-to').value = arguments[0]", end[11:])
-    browser.click("#times-form [type=submit]")
-    browser.wait_for_text("answer", "is now from")
-    demand("only the end of that stay has moved", [one["set_ups"][-1]["end"][:19] for one in stays()]
-           == [stopped[:19], end, last["set_ups"][-1]["end"][:19]])
-
-    press("No.2", "Resume")
-    browser.wait_for_text("answer", "resumed No.2")
-    browser.wait_for_text("run-site", "No.2")
-    running = session.status()["occupation"]
-    demand("the resumed stay has its old key and start",
-           (running["key"], running["start"]) == (last["key"], last["set_ups"][0]["start"]))
 
 
 def stop_emulator(session, browser):
