@@ -1,16 +1,12 @@
 """Compares the signal with the plan of a stay and the running reading with the truth, also after a crash of the daemon."""
 
-import atexit
 import datetime
 import json
-import shutil
 import signal
-import subprocess
 import time
-import urllib.request
 
 from emulated_session import Session, wait_for
-from programs import BIN, IS_SANITIZED, Scratch, daemon_config, demand, rows, run, unused_port
+from programs import BIN, IS_SANITIZED, Scratch, demand, run
 
 G_MGAL = 980665.0
 MOST_S = 40 if IS_SANITIZED else 10
@@ -83,9 +79,8 @@ with Scratch() as scratch:
     stay = json.loads(ctl(session, "list", "--json").stdout)["occupations"][0]
     start, end, reading = stay["set_ups"][0]["start"], stay["set_ups"][-1]["end"], stay["reading"]["value_mgal"]
     session.order("silence seconds=100000")
-    wait_for("no data", lambda: word(session) == "no_data", 10)
-    demand(f"NO DATA has the age of the last sample: {session.status()['signal']['sentence']}",
-           "last " in session.status()["signal"]["sentence"])
+    wait_for("NO DATA with the age of the last sample",
+             lambda: word(session) == "no_data" and "last " in session.status()["signal"]["sentence"], 10)
     status = ctl(session, "status", check=False)
     demand("a351ctl status ends with 1 or more, and begins with the state", status.returncode >= 1)
 
@@ -95,25 +90,3 @@ with Scratch() as scratch:
     true = mean_norm_mgal(between)
     demand(f"the reading {reading} mGal is the mean of the {len(between)} samples that the sensor sent, {true:.2f}",
            abs(float(reading) - true) < 1.0)
-
-# Readings whose journal is deleted are computed again from the archive.
-with Scratch() as scratch:
-    run(BIN / "a351-sim", "survey", "--scenario", "ideal", "--out", scratch / "data")
-    shutil.rmtree(scratch / "data" / "journal")
-    end = rows(scratch / "data" / "schedule.csv")[-1]["end_utc"]
-    port = unused_port()
-    (scratch / "a351d.toml").write_text(daemon_config(port))
-    daemon = subprocess.Popen([BIN / "a351d", "--config", "a351d.toml", "--clock", f"scaled:1@{end}"], cwd=scratch)
-    atexit.register(daemon.kill)
-
-    def readings():
-        try:
-            with urllib.request.urlopen(f"http://127.0.0.1:{port}/api/occupations", timeout=5) as reply:
-                return [one["reading"]["value_mgal"] for one in json.load(reply)["occupations"]]
-        except OSError:
-            return []
-
-    wait_for("the readings of the whole day", lambda: readings() and None not in readings(), 30 * SLOWER)
-    print(f"computed from the archive: {len(readings())} readings, {min(readings()):.1f} to {max(readings()):.1f} mGal")
-    daemon.terminate()
-    demand("the daemon ends cleanly", daemon.wait(timeout=30) == 0)
