@@ -78,37 +78,28 @@ def stop_script_alone(runner):
     os.kill(int(children[0]), signal.SIGCONT)
 
 
+KILLED = 128 + signal.SIGKILL
+# What is tested; script and its result on a steady host; how it runs; status and number of runs; parts of what is said.
+for claim, (script, *result), how, expected, parts in (
+        ("a test that fails on a steady host fails at once", (DELICATE, 3), {}, (3, 1), ["longest delay of the host "]),
+        ("a test that succeeds despite a pause runs once, and the pause is reported", (STURDY,), {"stopped_runs": [1]}, (0, 1),
+         ["paused for 1.", "nevertheless ended"]),
+        ("a test that failed in a pause is repeated, finds its port free and passes; the pause is reported", (DELICATE, 0),
+         {"stopped_runs": [1]}, (0, 2), ["paused for 1.", "is repeated once"]),
+        ("a test that was stopped without its runner is repeated too", (DELICATE, 0),
+         {"stopped_runs": [1], "stop_run": stop_script_alone}, (0, 2), ["paused for 1."]),
+        ("a test whose repetition fails on a steady host fails", (DELICATE, 3), {"stopped_runs": [1]}, (3, 2), ["it counts"]),
+        ("a test that fails in two runs with pauses is skipped", (DELICATE, 0), {"stopped_runs": [1, 2]}, (SKIPPED, 2),
+         ["skipped: the result is unknown"]),
+        ("a run that takes too long is killed and fails", (HANGING,), {"options": ["--at-most", "1.5"]}, (KILLED, 1), []),
+        ("a run that takes too long in a pause is repeated, and its second failure counts", (HANGING,),
+         {"stopped_runs": [1], "options": ["--at-most", "1.5"]}, (KILLED, 2), ["it counts"])):
+    status, runs, said = play_script(script, *([unused_port(), *result] if result else []), **how)
+    demand(claim, (status, runs) == expected and all(part in said for part in parts))
+    # Each pause is reported once, although both the script and its runner see it.
+    demand("each pause is reported once", said.count(" UTC") == said.count("paused for 1.") == len(how.get("stopped_runs", ())))
 status, runs, said = play_script(DELICATE, unused_port(), 0)
 demand("a test that succeeds on a steady host runs once, and nothing is printed", (status, runs, said) == (0, 1, ""))
-
-status, runs, said = play_script(DELICATE, unused_port(), 3)
-demand("a test that fails on a steady host fails at once", (status, runs) == (3, 1) and said.startswith("longest delay of the host "))
-
-status, runs, said = play_script(STURDY, stopped_runs=[1])
-demand("a test that succeeds despite a pause runs once, and the pause is reported",
-       (status, runs) == (0, 1) and "paused for 1." in said and "nevertheless ended" in said)
-demand("the pause is reported once, although both the script and its runner saw it", said.count(" UTC") == 1)
-
-status, runs, said = play_script(DELICATE, unused_port(), 0, stopped_runs=[1])
-demand("a test that failed in a pause is repeated, finds its port free and passes; the pause is reported",
-       (status, runs) == (0, 2) and "paused for 1." in said and "is repeated once" in said)
-
-status, runs, said = play_script(DELICATE, unused_port(), 0, stopped_runs=[1], stop_run=stop_script_alone)
-demand("a test that was stopped without its runner is repeated too", (status, runs) == (0, 2) and "paused for 1." in said)
-
-status, runs, said = play_script(DELICATE, unused_port(), 3, stopped_runs=[1])
-demand("a test whose repetition fails on a steady host fails", (status, runs) == (3, 2) and "it counts" in said)
-
-status, runs, said = play_script(DELICATE, unused_port(), 0, stopped_runs=[1, 2])
-demand("a test that fails in two runs with pauses is skipped, and both pauses are reported",
-       (status, runs) == (SKIPPED, 2) and said.count("paused for 1.") == 2 and "skipped: the result is unknown" in said)
-
-status, runs, said = play_script(HANGING, options=["--at-most", "1.5"])
-demand("a run that takes too long is killed and fails", (status, runs) == (128 + signal.SIGKILL, 1))
-
-status, runs, said = play_script(HANGING, stopped_runs=[1], options=["--at-most", "1.5"])
-demand("a run that takes too long in a pause is repeated, and its second failure counts",
-       (status, runs) == (128 + signal.SIGKILL, 2) and "it counts" in said)
 
 CASE = [TOOLS / "core_test", "[host_pauses]"]
 for name, how, expected in (("succeeds on a steady host", {}, (0, 1)),
