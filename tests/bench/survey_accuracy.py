@@ -19,7 +19,7 @@ import statistics
 
 from command_line import add_seeds, command_line, end_with
 import simulated_units
-from simulated_units import rms
+from simulated_units import hide_references, rms
 from programs import BIN, IS_LONG, Scratch, read_json, rows, run
 
 # Scenario, its unit scatter, number of set-ups; promised limits of the RMS out of sample and in sample, in mGal.
@@ -58,16 +58,10 @@ def number(row, column):
 
 def hidden_errors(day, table):
     """Returns corrected minus reference gravity of every row, from runs in which the reference of its station is hidden."""
-    sites = rows(day / "sites.csv")
+    sites = {row["site"] for row in rows(day / "sites.csv")}
     errors = {}
     for site in dict.fromkeys(row["site"] for row in table):
-        lines = ["site,longitude_deg,latitude_deg,altitude_m,gravity_mgal"]
-        for row in sites:
-            gravity = "" if row["site"] == site else row["gravity_mgal"]
-            lines.append(",".join([row["site"], row["longitude_deg"], row["latitude_deg"], row["altitude_m"], gravity]))
-        (day / "hidden.csv").write_text("\n".join(lines) + "\n")
-        survey = (day / "survey.toml").read_text().replace('"sites.csv"', '"hidden.csv"')
-        (day / "hidden.toml").write_text(survey)
+        hide_references(day, sites - {site}, "hidden")
         for known, row in zip(table, correct(day, day / "hidden.toml", day / "hidden", "day")):
             if row["site"] == site:
                 errors[row["time_utc"]] = number(row, "corrected_mgal") - number(known, "reference_mgal")

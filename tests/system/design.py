@@ -1,6 +1,4 @@
-"""A survey is designed: files, text and JSON agree, each proposal keeps what it promises, a mistake in the plan writes nothing."""
-
-import json
+"""A survey is designed: files, text and JSON agree, a mistake in the plan writes nothing.  alternatives_test.cpp has the proposals."""
 
 from programs import BIN, TOP, Scratch, demand, read_json, rows, run
 
@@ -43,26 +41,9 @@ with Scratch() as scratch:
            printed == (scratch / "first" / "design.json").read_text()
            and all((scratch / "first" / name).read_bytes() == (scratch / "again" / name).read_bytes() for name in names))
 
-    for one in found["alternatives"]:
-        (scratch / "changed.csv").write_text(one["plan_change"])
-        changed = json.loads(design(scratch, "changed.csv", "--sites", "sites.csv", "--json", "--out", "changed").stdout)
-        demand(f"as a plan: {one['text']}: {changed['u_mgal']:.2f} mGal",
-               abs(changed["u_mgal"] - one["u_mgal"]) < 1e-9 and one["u_mgal"] < 0.99 * found["u_mgal"]
-               and abs(60.0 * (changed["hours"] - found["hours"]) - one["extra_minutes"]) < 1e-6)
-
-    plan = (scratch / "plan.csv").read_text()
     before = sorted(scratch.rglob("*"))
-    for bad, arguments, parts in (
-            (plan.replace("No.1,", "no.1,"), [], ("bad.csv:3", "site = no.1", "like No.1?")),
-            (plan.replace("00:30:00Z", "00:11:00Z"), [], ("bad.csv:3", "start_utc = 2026-05-01T00:11:00Z", "or later")),
-            (plan.replace("Z,1,12\nNo.2", "Z,1,1\nNo.2"), [], ("bad.csv:3", "minutes_each = 1", "allowed")),
-            (plan, ["--unit", "plan.csv"], ("plan.csv", )),
-            (plan, ["--unit", "first/design.json"], ("first/design.json", "allowed")),
-            (plan, ["--out", "plan.csv"], ("--out = plan.csv", "allowed"))):
-        (scratch / "bad.csv").write_text(bad)
-        refused = design(scratch, "bad.csv", "--sites", "sites.csv", *arguments, check=False)
-        print(refused.stderr.strip())
-        (scratch / "bad.csv").unlink()
-        demand(f"one line, status 2, nothing written: {refused.stderr.strip()[:60]}...",
-               refused.returncode == 2 and refused.stderr.count("\n") == 1 and all(part in refused.stderr for part in parts)
-               and sorted(scratch.rglob("*")) == before)
+    (scratch / "bad.csv").write_text((scratch / "plan.csv").read_text().replace("No.1,", "no.1,"))
+    refused = design(scratch, "bad.csv", "--sites", "sites.csv", check=False)
+    (scratch / "bad.csv").unlink()
+    demand(f"one line, status 2, nothing written: {refused.stderr.strip()}", refused.returncode == 2 and refused.stderr.count("\n") == 1
+           and all(part in refused.stderr for part in ("bad.csv:3", "site = no.1", "like No.1?")) and sorted(scratch.rglob("*")) == before)
