@@ -38,7 +38,8 @@ COMMANDS = [
     [*PYTHON, HERE / "system_bench.py"], [*PYTHON, HERE / "speed.py", *(["--beside", options.beside] if options.beside else [])],
     ["env", "A351_LONG=1", TOOLS / "timing_test", "times behind*"], [*PYTHON, TOP / "tests/system/kill_daemon.py"],
     [TOOLS / "daemon_test", "[power_cut]"], [*PYTHON, TOP / "tests/system/same_bytes.py"],
-    *([*PYTHON, TOP / "tests/system" / f"{name}.py"] for name in ("obspy_reads", "ringserver", "gsadjust", "stranger_reads")),
+    *([*PYTHON, TOP / "tests/system" / f"{name}.py"]
+      for name in ("obspy_reads", "ringserver", "gsadjust", "stranger_reads")),
 ]
 
 DAY = r"{}, units within {} %, {} set-ups?\n(?:.*\n)*?    {}: ([\d.]+)"

@@ -2,9 +2,9 @@
 
     A351_LONG=1 python3 tests/system/arm64.py [bookworm|trixie]     default: the suite of this host
 
-Runs the unit and golden tests, compares the files of the programs with those of amd64, and makes the packages.  Needs root,
-debootstrap, a Debian mirror and an amd64 host.  Nothing is compiled under qemu.  The amd64 programs are compiled from the
-same tree in the same root.
+Runs the unit and golden tests, compares the files of the programs with those of amd64, and makes the packages.
+Needs root, debootstrap, a Debian mirror and an amd64 host.  Nothing is compiled under qemu.  The amd64 programs are
+compiled from the same tree in the same root.
 """
 
 import os

@@ -1,4 +1,4 @@
-"""Bad input: each program prints one line with file, line, key and allowed values, ends with status 2 and writes nothing.
+"""Bad input: each program prints one line with file, line, key and allowed values, ends with 2 and writes nothing.
 
 The unit tests of the readers have every mistake; here is one of each file, and each option of the emulator.
 """
@@ -37,33 +37,41 @@ def refuse(title, parts, *command, **files):
         line = result.stderr.strip()
         demand(f"{title}: status 2 and one line with {parts}: {line}",
                result.returncode == 2 and line != "" and "\n" not in line and all(part in line for part in parts))
-        demand(f"{title}: nothing written", listing(scratch) == before and (scratch / "taken").read_text() == "somebody's")
+        demand(f"{title}: nothing written", listing(scratch) == before
+               and (scratch / "taken").read_text() == "somebody's")
 
 
 refuse("a key of the configuration", ["a351d.toml:10", "page.listen_to", "unknown key", "allowed"], *DAEMON,
        a351d=CONFIG.replace("listen =", "listen_to ="))
 refuse("a missing list of sites", ["absent.csv"], *DAEMON, a351d=CONFIG.replace("sites.csv", "absent.csv"))
-refuse("sites with NaN", ["sites.csv:2", "latitude_deg", "nan"], *DAEMON, sites=SITES.replace("140,36,10", "140,nan,10"))
+refuse("sites with NaN", ["sites.csv:2", "latitude_deg", "nan"], *DAEMON, sites=SITES.replace("140,36,10",
+                                                                                              "140,nan,10"))
 refuse("a missing configuration", ["absent.toml"], "a351d", "--config", "absent.toml")
-for command in (("a351d",), ("a351-sim", "plan", "--out", "plan"), ("a351-correct", "survey", "day.toml"), ("a351ctl", "sites"),
+for command in (("a351d",), ("a351-sim", "plan", "--out", "plan"), ("a351-correct", "survey", "day.toml"),
+                ("a351ctl", "sites"),
                 ("a351-stream", "data", "127.0.0.1:1")):
     refuse(f"unknown option of {command[0]}", ["--nonsense"], *command, "--nonsense")
 refuse("an unknown scenario", ["nowhere"], "a351-sim", "survey", "--scenario", "nowhere", "--out", "root")
 for what, text, parts in (("key", SCENARIO + "[oven]\nlid = true\n", ["day.toml:4", "oven.lid", "unknown"]),
-                          ("stay", SCENARIO + "".join(map(STAY.format, range(1, 7))), ["scenario x", "No.1", "further apart"])):
+                          ("stay", SCENARIO + "".join(map(STAY.format, range(1, 7))),
+                           ["scenario x", "No.1", "further apart"])):
     for command in ("plan", "survey"):
-        refuse(f"a {what} of a scenario for {command}", parts, "a351-sim", command, "--scenario", "day.toml", "--out", "root", day=text)
-for link, parts in (("absent/sensor", ["absent/sensor", "allowed"]), ("taken", ["no link"]), ("foreign", ["/nonexistent"]),
+        refuse(f"a {what} of a scenario for {command}", parts, "a351-sim", command, "--scenario", "day.toml", "--out",
+               "root", day=text)
+for link, parts in (("absent/sensor", ["absent/sensor", "allowed"]), ("taken", ["no link"]),
+                    ("foreign", ["/nonexistent"]),
                     ("", ["empty path", "allowed"]), (LONG, ["too long", "allowed"]), ("loop/sensor", ["no directory"]),
                     ("loop", ["allowed"]), ("/proc/sensor", ["/proc/sensor", "allowed"])):
     refuse(f"the link {link[:20]}", parts, *DEVICE, link)
 for option in ("--truth", "--report", "--state", "--control", "--oven-link"):
-    for file in ("absent/file", LONG, "/proc/file", *((".", "loop") if option in ("--truth", "--report", "--state") else ("loop/file",))):
+    for file in ("absent/file", LONG, "/proc/file", *((".", "loop") if option in ("--truth", "--report", "--state")
+                                                      else ("loop/file",))):
         refuse(f"{option} {file[:20]}", [file, "allowed"], *DEVICE, "sensor", option, file)
 for title, parts, *options in (
         ("control socket in place of a file", ["taken", "no socket"], "--control", "taken"),
         ("truth in place of a foreign file", ["taken", "no truth file"], "--truth", "taken"),
-        ("clock after the scenario", ["after the end of the scenario tsukuba"], "--clock", "scaled:1@2030-01-01T00:00:00Z"),
+        ("clock after the scenario", ["after the end of the scenario tsukuba"], "--clock",
+         "scaled:1@2030-01-01T00:00:00Z"),
         ("missing fault script", ["absent.toml"], "--faults", "absent.toml"),
         ("impossible fault", ["faults.toml:4", "fault.bits = 17", "from 1 to 16"], "--faults", "faults.toml"),
         ("impossible flash memory", ["flash.toml:3", "registers.SIG_CTRL", "65535"], "--state", "flash.toml")):
@@ -72,5 +80,6 @@ for title, parts, *options in (
 observations = (GOLDEN / "observations.csv").read_text()
 refuse("observation of an unknown site", ["bad.csv:3", "site", "No.99", "allowed"], *TABLE,
        bad=observations.replace("No.12,1", "No.99,1"))
-refuse("unknown base", ["survey.toml:4", "survey.base", "No.99"], "a351-correct", "survey", "survey.toml", "--out", "result",
+refuse("unknown base", ["survey.toml:4", "survey.base", "No.99"], "a351-correct", "survey", "survey.toml", "--out",
+       "result",
        survey='[survey]\nroot = "data"\nsites = "golden.csv"\nbase = "No.99"\n')

@@ -10,7 +10,8 @@ import tomllib
 from programs import BIN, TOP, Scratch, demand, read_json, rows, run
 
 SEED = 4
-TERMS = ("tide", "bias", "static", "dynamic", "clock", "warm_up", "placement", "flicker", "resonant", "white", "drift", "ripple", "scale", "tilt")
+TERMS = ("tide", "bias", "static", "dynamic", "clock", "warm_up", "placement", "flicker", "resonant", "white", "drift",
+         "ripple", "scale", "tilt")
 
 
 def correct(*arguments, check=True, cwd=None):
@@ -18,9 +19,10 @@ def correct(*arguments, check=True, cwd=None):
 
 
 def refused(scratch, words, *arguments):
-    """Demands that the corrector refuses arguments that end in --out FILE in one line with these words, and writes nothing."""
+    """Demands that arguments that end in --out FILE are refused in one line with these words; nothing is written."""
     result = correct(*arguments, check=False, cwd=scratch)
-    demand(f"refused: {result.stderr.strip()}", result.returncode == 2 and words in result.stderr and result.stderr.count("\n") == 1
+    demand(f"refused: {result.stderr.strip()}", result.returncode == 2 and words in result.stderr
+           and result.stderr.count("\n") == 1
            and not (scratch / arguments[-1]).exists())
 
 
@@ -71,12 +73,13 @@ with Scratch() as scratch:
     values, covariance = unit["axis_bias"]["values"], unit["axis_bias"]["covariance"]
     for k, (axis, truth) in enumerate(zip("xy", true_biases(scratch / "tilt-series"))):
         error = math.sqrt(covariance[3 * k])
-        demand(f"the bias of {axis} is {values[k]:.1f} +- {error:.1f} mGal/g, within three standard errors of the true {truth:.1f}",
+        demand(f"the bias of {axis} is {values[k]:.1f} +- {error:.1f} mGal/g, true {truth:.1f} within three errors",
                abs(values[k] - truth) < 3.0 * error < 120.0)
     text = (scratch / "c.toml").read_text()
     (scratch / "ended.toml").write_text(text.replace("[axis_bias]", 'valid_to_utc = "2017-01-01T00:00:00Z"\n\n[axis_bias]', 1)
                                         .replace('valid_from_utc = "2017', 'valid_from_utc = "2016'))
-    refused(scratch, "ended.toml: valid_to_utc", "calibrate", "--tilt", "tilt-series", "--merge", "ended.toml", "--out", "no.toml")
+    refused(scratch, "ended.toml: valid_to_utc", "calibrate", "--tilt", "tilt-series", "--merge", "ended.toml", "--out",
+            "no.toml")
     refused(scratch, "each reading once", "calibrate", "--tilt", "tilt-series", "tilt-series", "--out", "no.toml")
     refused(scratch, "one point", "calibrate", "--tilt", "tilted/survey.toml", "--out", "no.toml")
     refused(scratch, "--out = c.toml/c.toml", "calibrate", "--tilt", "tilt-series", "--out", "c.toml/c.toml")
@@ -84,18 +87,23 @@ with Scratch() as scratch:
     both = calibrated("both.toml", "--placement", "placement", "--merge", "c.toml")
     demand_described(both)
     low, high = both["placement"]["limits_mgal"]
-    demand(f"the true placement, 1.2 mGal, is within {low:.2f} to {high:.2f}, which are at most a factor of 4 apart", low < 1.2 < high < 4.0 * low)
+    demand(f"the true placement, 1.2 mGal, is within {low:.2f} to {high:.2f}, which are at most a factor of 4 apart",
+           low < 1.2 < high < 4.0 * low)
     demand("the biases are merged", both["axis_bias"]["values"] == values)
     survey = ("survey", "tilted/survey.toml", "--calibration", "both.toml", "--out", "result")
     correct(*survey, cwd=scratch)
     result = read_json(scratch / "result" / "result.json")
     used = result["calibration"]
-    demand("the result names the calibration", result["settings"]["calibration"] == "both.toml" and used["serial_number"] == "00000001"
+    demand("the result names the calibration", result["settings"]["calibration"] == "both.toml"
+           and used["serial_number"] == "00000001"
            and any(file["role"] == "calibration" for file in result["inputs"]))
-    demand("biases and placement were used as priors and the readings do not contradict them", used["placement"]["use"] == "prior"
-           and used["axis_bias"]["use"] == "prior" and not used["axis_bias"]["contradicted"] and used["thermal"] is None)
+    demand("biases and placement were used as priors and the readings do not contradict them",
+           used["placement"]["use"] == "prior"
+           and used["axis_bias"]["use"] == "prior" and not used["axis_bias"]["contradicted"]
+           and used["thermal"] is None)
     report = (scratch / "result" / "report.html").read_text()
-    demand("the report names the calibration and no contradiction", "calibration of unit 00000001" in report and "contradict" not in report)
+    demand("the report names the calibration and no contradiction", "calibration of unit 00000001" in report
+           and "contradict" not in report)
     (scratch / "other.toml").write_text(text.replace("00000001", "00000002"))
     refused(scratch, "unit 00000002", "survey", "tilted/survey.toml", "--calibration", "other.toml", "--out", "other")
 
@@ -112,8 +120,10 @@ with Scratch() as scratch:
     demand("the biases of the tumble are more certain than those of the tilt series",
            better["covariance"][0] + better["covariance"][3] < covariance[0] + covariance[3])
     best = calibrated("best.toml", "--tilt", "tilt-series", "--tumble", "tumble", "--merge", "both.toml")
-    demand("with all series the scale is merged and the biases are those of the tumble", best["scale"] == scale and best["axis_bias"] == better)
+    demand("with all series the scale is merged and the biases are those of the tumble", best["scale"] == scale
+           and best["axis_bias"] == better)
     table = (scratch / "tumble" / "sites.csv").read_text()
     (scratch / "tumble" / "sites.csv").write_text(table.replace("979763", "983200"))
     said = correct("calibrate", "--tumble", "tumble", "--out", "wrong.toml", cwd=scratch)
-    demand(f"a gravity that does not fit its place gives a warning: {said.stderr.strip()}", "normal gravity" in said.stderr and "979763" in table)
+    demand(f"a gravity that does not fit its place gives a warning: {said.stderr.strip()}",
+           "normal gravity" in said.stderr and "979763" in table)

@@ -1,4 +1,7 @@
-"""A survey is designed: files, text and JSON agree, a mistake in the plan writes nothing.  alternatives_test.cpp has the proposals."""
+"""A survey is designed: files, text and JSON agree, a mistake in the plan writes nothing.
+
+alternatives_test.cpp has the proposals.
+"""
 
 from programs import BIN, TOP, Scratch, demand, read_json, rows, run
 
@@ -45,5 +48,7 @@ with Scratch() as scratch:
     (scratch / "bad.csv").write_text((scratch / "plan.csv").read_text().replace("No.1,", "no.1,"))
     refused = design(scratch, "bad.csv", "--sites", "sites.csv", check=False)
     (scratch / "bad.csv").unlink()
-    demand(f"one line, status 2, nothing written: {refused.stderr.strip()}", refused.returncode == 2 and refused.stderr.count("\n") == 1
-           and all(part in refused.stderr for part in ("bad.csv:3", "site = no.1", "like No.1?")) and sorted(scratch.rglob("*")) == before)
+    demand(f"one line, status 2, nothing written: {refused.stderr.strip()}", refused.returncode == 2
+           and refused.stderr.count("\n") == 1
+           and all(part in refused.stderr for part in ("bad.csv:3", "site = no.1", "like No.1?"))
+           and sorted(scratch.rglob("*")) == before)

@@ -1,4 +1,4 @@
-"""A small disk is filled up and emptied under the daemon at 20x: the archive must hold every sample that the emulator sent.
+"""A small disk is filled up and emptied under the daemon at 20x: the archive must hold every sample that was sent.
 
 Disks that fail, stall or turn read-only: fault-list.md.
 """
@@ -43,9 +43,11 @@ def full_and_emptied():
                  lambda: session.status()["disk"]["reserve"] == "present" and reserve.stat().st_blocks * 512 >= RESERVE)
         fill(session, data)
         before, size = session.status(), archive_size(scratch)
-        wait_for("3000 more samples are journaled", lambda: session.status()["journaled"] >= (before["journaled"] or 0) + 3000)
+        wait_for("3000 more samples are journaled", lambda: session.status()["journaled"] >= (before["journaled"]
+                                                                                              or 0) + 3000)
         state = session.status()
-        demand(f"the status reports the fault: {state['reasons']}", state["level"] == "fault" and has_reason(session, "disk full"))
+        demand(f"the status reports the fault: {state['reasons']}", state["level"] == "fault"
+               and has_reason(session, "disk full"))
         demand(f"{state['disk']['free_bytes']} bytes are free for the journal, and the journal has no fault",
                0 < state["disk"]["free_bytes"] <= RESERVE and state["counters"]["journal_faults"] == 0)
         demand("the archive is not written meanwhile", archive_size(scratch) == size
@@ -58,7 +60,8 @@ def full_and_emptied():
         journaled = session.status()["journaled"]
         (data / "filler").unlink()
         (data / "filler2").unlink()
-        wait_for("the fault is over and the reserve is back", lambda: (state := session.status())["disk"]["reserve"] == "present"
+        wait_for("the fault is over and the reserve is back",
+                 lambda: (state := session.status())["disk"]["reserve"] == "present"
                  and state["journaled"] > journaled + 3 * 50 * SPEED and state["level"] != "fault")
         demand("the blocks of the reserve are allocated again", reserve.stat().st_blocks * 512 >= RESERVE)
         demand("the reserve was released once", session.status()["counters"]["reserve_given_up"] == 1)

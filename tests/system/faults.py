@@ -1,4 +1,4 @@
-"""Faults at 20x that need a real terminal, process or log: the daemon's counters and archive must agree with the emulator's truth.
+"""Faults at 20x that need a real terminal, process or log: counters and archive must agree with the emulator's truth.
 
 fault-list.md has all faults, with the tests that play each of them without programs.
 """
@@ -57,7 +57,7 @@ def bytes_agree(report, counters, outages=0):
 
 def gaps_agree(session, counters, unread=0):
     gaps, missing = gaps_of(session.truth())
-    demand(f"{counters['gaps']} gaps of {counters['samples_missing']} samples, truth {gaps} of {missing}, and {unread} unread",
+    demand(f"{counters['gaps']} gaps of {counters['samples_missing']}, truth {gaps} of {missing}, and {unread} unread",
            (counters["gaps"], counters["samples_missing"]) == (gaps, missing + unread))
 
 
@@ -76,7 +76,7 @@ def damaged_line():
 
 
 def unplugged_port():
-    """Outages up to several wraps of the counter: the same stream continues, and its counter shows how many samples each cost."""
+    """Outages up to several wraps of the counter: the same stream continues, and its counter shows what each cost."""
     with Scratch() as scratch:
         session = Session(scratch)
         session.wait_for_frames(1000)
@@ -112,13 +112,15 @@ def changed_sensor():
         session.wait_for_frames(1000)
         refused(session, "port", 'root = "data"', 'root = "other"')
         refused(session, "data root", 'port = "sensor"', 'port = "none"')
-        demand("the first one has lost nothing", session.settled()["gaps"] == session.status()["counters"]["link_stalls"] == 0)
+        demand("the first one has lost nothing",
+               session.settled()["gaps"] == session.status()["counters"]["link_stalls"] == 0)
         session.order("reset")
         wait_for("a new session after the reset", lambda: session.status()["counters"]["sessions"] == 2)
         session.settled()
         session.ctl("start", "No.1")
         session.order(f"other_unit serial_number={OTHER}")
-        wait_for("the other sensor is reported", lambda: f"{OTHER} after {OWN}" in " ".join(session.status()["reasons"]))
+        wait_for("the other sensor is reported",
+                 lambda: f"{OTHER} after {OWN}" in " ".join(session.status()["reasons"]))
         session.settled()
         stays = json.loads(session.ctl("list", "--json"))["occupations"]
         demand("its stay has ended", len(stays) == 1 and session.status()["occupation"] is None)

@@ -31,7 +31,8 @@ with Scratch() as scratch:
     day = scratch / "day"
     run(BIN / "a351-sim", "survey", "--scenario", "hot-afternoon", "--seed", 5, "--out", day)
     survey = day / "survey.toml"
-    survey.write_text(survey.read_text().replace('occupations = "schedule.csv"', 'occupations = ""'))  # The stays are those of the log.
+    survey.write_text(survey.read_text().replace('occupations = "schedule.csv"',
+                                                 'occupations = ""'))  # The stays are those of the log.
     log = next((day / "events").glob("*.jsonl"))
     events = [json.loads(line) for line in log.read_text().splitlines()]
     clean, clean_mgal = corrected(day, "clean")

@@ -81,7 +81,8 @@ with Scratch() as scratch:
         demand(f"{arguments}: one line, status 2, nothing written", bad.returncode == 2 and
                bad.stderr.count("\n") == 1 and words in bad.stderr and not (scratch / "bad.toml").exists())
 
-    run(BIN / "a351-correct", "record", "first", "--apply", "night.toml", "--ensemble", "20", "--out", "applied", cwd=scratch)
+    run(BIN / "a351-correct", "record", "first", "--apply", "night.toml", "--ensemble", "20", "--out", "applied",
+        cwd=scratch)
     applied = read_json(scratch / "applied" / "result.json")["applied"]
     cycle = next(band["rms_mgal"] for band in applied["bands"] if band["shortest_s"] == 600.0)
     print(applied["calibration"], cycle)

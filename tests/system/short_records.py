@@ -1,4 +1,4 @@
-"""With storage.record_age_s = 1 a record reaches the ring within 2 s of its last sample, by daemon, archive and a351-stream.
+"""With storage.record_age_s = 1 a record reaches the ring within 2 s of its last sample, by daemon and a351-stream.
 
 kill_daemon.py kills daemons with such records; recovery_test.cpp makes them again from the journal.
 A351_LONG=1: for a minute; otherwise for half a minute.

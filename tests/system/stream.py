@@ -1,7 +1,7 @@
 """a351-stream sends every record of a growing archive to a DataLink server once, in order, whatever happens to either side.
 
 The server is datalink_ring.py, with restarts, refusals, floods and hangs; the client is killed too.  A daemon records beside
-it and must lose nothing.  Then the ring loses packets.  stream_test.cpp has archives that are cut, damaged and repaired.
+it and must lose nothing.  Then the ring loses packets.  stream_test.cpp has archives that are cut and damaged.
 """
 
 import datetime
