@@ -5,6 +5,7 @@ fault-list.md has all faults, with the tests that play each of them without prog
 
 import json
 import os
+import re
 import termios
 
 from emulated_session import FRAME, Session, gaps_of, require_unread, wait_for
@@ -19,8 +20,6 @@ RANDOM = """
 seed = 5
 flip_bit_per_h = 120
 drop_bytes_per_h = 60
-garbage_per_h = 60
-lose_frames_per_h = 60
 duplicate_frame_per_h = 60
 error_flags_per_h = 60
 """
@@ -65,28 +64,32 @@ def damaged_line():
     """Damage at random times on a terminal in cooked mode, with a log that cannot be written."""
     with Scratch() as scratch:
         session = Session(scratch, RANDOM, prepare_port=leave_cooked, stderr=closed_pipe())
+        session.order("garbage bytes=10000")
+        session.order("lose_frames count=3")
         session.wait_for_frames(50 * 200)
         report, counters = session.end()
         bytes_agree(report, counters)
         gaps_agree(session, counters)
         demand(f"{counters['duplicates']} duplicates, {report['frames_repeated']} were sent",
                counters["duplicates"] == report["frames_repeated"] > 0)
+        demand("damage and flags are counted", min(counters[f"{kind}_errors"] for kind in ("checksum", "framing")) > 0
+               and counters["error_flags"] == report["frames_flagged"] > 0)
         demand("one session", counters["sessions"] == len(report["runs"]) == 1)
-        session.archive_is_true(missing=0)
+        session.archive_is_true(missing=0, steps=None)  # Its times depend on the host; kill_daemon.py has them.
 
 
 def unplugged_port():
-    """Outages up to several wraps of the counter: the same stream continues, and its counter shows what each cost."""
+    """Outages up to two wraps of the counter: the same stream continues, and its counter shows what each cost."""
     with Scratch() as scratch:
-        session = Session(scratch)
+        session = Session(scratch, speed=5)  # An adoption is certain within 1 s of signal: 0.2 s of the host.
         session.wait_for_frames(1000)
         names = {(scratch / "sensor").readlink()}
-        for seconds in (5, 100):
+        for seconds in (5, 40):
             before = session.emulated()["frames_sent"]
             session.order(f"hang_up seconds={seconds}")
             wait_for("the port is gone", lambda: not (scratch / "sensor").is_symlink())
             wait_for("the port is back", lambda: (scratch / "sensor").is_symlink())
-            wait_for("frames again", lambda: session.emulated()["frames_sent"] > before + 1000)  # noqa: B023
+            wait_for("frames again", lambda: session.emulated()["frames_sent"] > before + 500)  # noqa: B023
             names.add((scratch / "sensor").readlink())
             session.settled()
         report, counters = session.end()
@@ -95,7 +98,25 @@ def unplugged_port():
         unread = report["frames_sent"] - counters["frames"]
         bytes_agree(report, counters, outages=2)
         gaps_agree(session, counters, unread)
-        session.archive_is_true(missing=unread)
+        session.archive_is_true(missing=unread, steps=None)
+
+
+def changed_baud():
+    """The sensor changes its baud rate: the daemon finds the new one, says so, and notes it in the journal."""
+    with Scratch() as scratch:
+        session = Session(scratch)
+        session.wait_for_frames(1000)
+        session.order("change_baud")
+        wait_for("frames at the other baud rate", lambda: session.status()["counters"]["link_sessions"] == 2
+                 and session.emulated()["runs"][-1]["frames"] > 500)
+        reason = " ".join(session.status()["reasons"])
+        session.settled()
+        report, counters = session.end()
+        baud = re.search(rb'"baud":(\d+)', sorted((scratch / "data" / "journal").glob("*.a351j"))[-1].read_bytes())
+        demand(f"the status says {reason}, the journal {baud and baud[1]}",
+               "115200 baud, not at the configured 460800" in reason and baud and baud[1] == b"115200")
+        # Sent before the daemon had stopped the sensor at its baud rate.
+        session.archive_is_true(missing=report["frames_sent"] - counters["frames"], steps=None)
 
 
 def refused(session, name, old, new):
@@ -130,4 +151,9 @@ def changed_sensor():
                all(one["altered"] == one["duplicated"] == 0 < one["matched"] for one in session.counted().values()))
 
 
-together(damaged_line, unplugged_port, changed_sensor)  # They wait most of their time.
+def changes():
+    changed_baud()
+    changed_sensor()
+
+
+together(damaged_line, unplugged_port, changes)  # They wait most of their time.

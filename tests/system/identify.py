@@ -1,6 +1,6 @@
-"""a351d --identify: the right sensor, another product, a port without permission, and a port in use.
+"""a351d --identify: the right sensor, another product, a GPS receiver, a dead line, and ports that cannot be opened.
 
-tests/unit/identify has all other sensors, and what is no sensor.
+tests/unit/identify has all other sensors.
 """
 
 import datetime
@@ -8,12 +8,15 @@ import fcntl
 import os
 import pty
 import subprocess
+import threading
+import tty
 
 from emulated_session import wait_for
 from programs import BIN, Scratch, daemon_config, demand, together
 
 DONE, FAILED, LOCKED, DIFFERS = 0, 1, 3, 4
 START = "2017-06-01T09:00:05Z"  # of the scenario `indoor`
+GPS = b"$GPGGA,123519,4807.038,N,01131.000,E,1,08,0.9,545.4,M,46.9,M,,*47\r\n"
 
 
 def folder(scratch, name):
@@ -68,6 +71,41 @@ def check_product(scratch):
     demand("its profile is named", 'set sensor.profile = "A352AD10"' in text)
 
 
+def with_line(where, text=None):
+    """Identifies what is on a line that repeats a text.  @return also the number of bytes that the line received"""
+    ours, theirs = pty.openpty()
+    tty.setraw(theirs)
+    (where / "sensor").symlink_to(os.ttyname(theirs))
+    received, over = [], threading.Event()
+
+    def talk():
+        os.set_blocking(ours, False)
+        while not over.wait(0.2):
+            if text:
+                os.write(ours, text)
+            try:
+                received.append(os.read(ours, 4096))
+            except BlockingIOError:
+                pass
+
+    line = threading.Thread(target=talk)
+    line.start()
+    try:
+        return (*identify(where), sum(map(len, received)))
+    finally:
+        over.set()
+        line.join()
+
+
+def check_other_lines(scratch):
+    status, _, error, received = with_line(folder(scratch, "gps"), GPS)
+    demand("a GPS receiver is named, and gets no byte", status == FAILED and "GPS receiver" in error and received == 0)
+    demand("its text is shown", GPS.decode().strip() in error)
+    status, _, error, received = with_line(folder(scratch, "dead"))
+    demand("a dead line is asked, and the remedy is named", status == FAILED and received > 0 and "check the sensor's plug" in error)
+    demand("neither leaves a file", not list(scratch.glob("gps/identify*")) + list(scratch.glob("dead/identify*")))
+
+
 def check_refused_ports(scratch):
     where = folder(scratch, "refused")
     ours, theirs = pty.openpty()
@@ -85,4 +123,5 @@ def check_refused_ports(scratch):
 
 
 with Scratch() as scratch:
-    together(lambda: check_right(scratch), lambda: check_product(scratch), lambda: check_refused_ports(scratch))
+    together(lambda: check_right(scratch), lambda: check_product(scratch), lambda: check_other_lines(scratch),
+             lambda: check_refused_ports(scratch))
