@@ -1,16 +1,15 @@
 #include <string>
 #include "tests/support/catch.hpp"
 
-#include "protocol/journal/journal_codec.hpp"
 #include "sim/replay/journal_recording.hpp"
-#include "tests/support/file_bytes.hpp"
-#include "tests/support/temporary_directory.hpp"
+#include "tests/unit/journal/segment_fixture.hpp"
 #include "tests/unit/sim/replay/replay_host.hpp"
 
 namespace a351::sim::replay {
 namespace {
 
 using namespace std::chrono_literals;
+using journal::segment_of;
 
 const UtcTime kJournalStart = *parse_rfc3339("2026-03-01T12:00:00Z");
 constexpr RawTime kRawStart{1000s};
@@ -40,170 +39,129 @@ journal::RxChunk read_of(const std::string& text, Nanoseconds since_start) {
             {{static_cast<std::uint32_t>(text.size()), kRawStart + since_start}}};
 }
 
-/// A directory of segments, and the device that replays them.
-class Recorded {
-public:
-    std::filesystem::path segment(const std::vector<journal::Chunk>& chunks) {
-        auto bytes = journal::encode_preamble();
-        std::uint32_t sequence = 0;
-        for (const auto& chunk : chunks) {
-            const auto more = journal::encode_chunk(chunk, sequence++);
-            bytes.insert(bytes.end(), more.begin(), more.end());
-        }
-        files_.push_back(directory_.path() /
-                         ("0000000" + std::to_string(files_.size() + 1) + "_x.a351j"));
-        test::write_bytes(files_.back(), bytes);
-        return files_.back();
-    }
-
-    /// Adds a segment with one word each after 5, 6 and 9 s.
-    void three_words() {
-        segment({header_of(1), read_of("one", 5s), read_of("two", 6s), read_of("three", 9s)});
-    }
-
-    [[nodiscard]] Device device(Timing timing = Timing::as_recorded) const {
-        return {std::make_unique<JournalRecording>(files_), timing, Nanoseconds(0)};
-    }
-
-private:
-    test::TemporaryDirectory directory_;
-    std::vector<std::filesystem::path> files_;
-};
-
-std::string text_of(const SentPieces& line) {
-    std::string text;
-    for (const std::byte byte : line.bytes()) text += static_cast<char>(byte);
-    return text;
+/// Returns a segment with one word each after 5, 6 and 9 s.
+journal::Bytes three_words() {
+    return segment_of({header_of(1), read_of("one", 5s), read_of("two", 6s), read_of("three", 9s)});
 }
 
-constexpr const char* kProfile = "A352AD10";
+/// A directory of segments, the device that replays them, and its host.
+struct Replay {
+    explicit Replay(const std::vector<journal::Bytes>& segments,
+                    Timing timing = Timing::as_recorded, UtcTime begin = kJournalStart)
+        : device(std::make_unique<JournalRecording>(written(segments)), timing, Nanoseconds(0)),
+          host(device, begin) {}
+
+    wire::DeviceIdentity configure(const wire::SensorSettings& settings = {}) {
+        return host.configure(settings, "A352AD10");
+    }
+
+    std::vector<std::filesystem::path> written(const std::vector<journal::Bytes>& segments) {
+        for (const journal::Bytes& segment : segments) {
+            files.push_back(directory.path() /
+                            ("0000000" + std::to_string(files.size() + 1) + "_x.a351j"));
+            test::write_bytes(files.back(), segment);
+        }
+        return files;
+    }
+
+    [[nodiscard]] std::string heard() const {
+        std::string text;
+        for (const std::byte byte : host.line.bytes()) text += static_cast<char>(byte);
+        return text;
+    }
+
+    /// Returns the times at which the pieces have left, since the start of the recording.
+    [[nodiscard]] std::vector<Nanoseconds> left() const {
+        std::vector<Nanoseconds> times;
+        for (const auto& piece : host.line.pieces) times.push_back(piece.leaves - kJournalStart);
+        return times;
+    }
+
+    test::TemporaryDirectory directory;
+    std::vector<std::filesystem::path> files;
+    Device device;
+    ReplayHost host;
+};
+
+using Times = std::vector<Nanoseconds>;
 
 }  // namespace
 
-TEST_CASE("a device that replays a journal has the identity of the recorded unit",
+TEST_CASE("a device that replays a journal has the identity and baud rate of the recorded unit",
           "[sim][replay]") {
-    Recorded recorded;
-    recorded.segment({header_of(1), read_of("a", 5s)});
-    Device device = recorded.device();
-    ReplayHost host(device, kJournalStart);
-    const auto identity = host.configure({}, kProfile);
+    auto header = header_of(1);
+    header.baud = 115200;
+    Replay replay({segment_of({header, read_of("a", 5s)})});
+    CHECK(replay.device.baud() == 115200);
+    const auto identity = replay.configure();
     CHECK(identity.product_id == "A352AD10");
     CHECK(identity.serial_number == "T0000007");
     CHECK(identity.firmware == 0x0102);
-    CHECK(device.baud() == 460800);
-}
-
-TEST_CASE("a device that replays a journal starts at the recorded baud rate", "[sim][replay]") {
-    Recorded recorded;
-    auto header = header_of(1);
-    header.baud = 115200;
-    recorded.segment({header, read_of("a", 5s)});
-    Device device = recorded.device();
-    CHECK(device.baud() == 115200);
-    ReplayHost host(device, kJournalStart);
-    host.configure({}, kProfile);
-    CHECK(device.baud() == 115200);
+    CHECK(replay.device.baud() == 115200);
 }
 
 TEST_CASE("recorded bytes leave at their recorded times, and not before the host starts sampling",
           "[sim][replay]") {
-    Recorded recorded;
-    recorded.three_words();
-    Device device = recorded.device();
-    ReplayHost host(device, kJournalStart);
-    host.wait(4s);
-    host.configure({}, kProfile);
-    CHECK(device.next_due() == kJournalStart + 5s);
-    host.wait_until(kJournalStart + 5s - 1ns);
-    CHECK(host.line.pieces.empty());
-    host.listen();
-    REQUIRE(host.line.pieces.size() == 3);
-    CHECK(text_of(host.line) == "onetwothree");
-    CHECK(host.line.pieces[0].leaves == kJournalStart + 5s);
-    CHECK(host.line.pieces[1].leaves == kJournalStart + 6s);
-    CHECK(host.line.pieces[2].leaves == kJournalStart + 9s);
-    CHECK_FALSE(device.next_due());
-}
-
-TEST_CASE("reads of one chunk keep their own times", "[sim][replay]") {
-    Recorded recorded;
-    journal::RxChunk chunk = read_of("abcdef", 5s);
-    chunk.reads = {{2, kRawStart + 5s}, {3, kRawStart + 5500ms}, {6, kRawStart + 7s}};
-    // Raw time goes back to 6 s, as no real clock does: the order of the reads is kept.
-    recorded.segment({header_of(1), chunk, read_of("earlier", 6s)});
-    Device device = recorded.device();
-    ReplayHost host(device, kJournalStart);
-    host.configure({}, kProfile);
-    host.listen();
-    REQUIRE(host.line.pieces.size() == 4);
-    CHECK(host.line.pieces[1].bytes.size() == 1);
-    CHECK(host.line.pieces[1].leaves == kJournalStart + 5500ms);
-    CHECK(host.line.pieces[2].leaves == kJournalStart + 7s);
-    CHECK(host.line.pieces[3].leaves == kJournalStart + 7s);
+    journal::RxChunk chunk = read_of("abcdef", 6s);
+    chunk.reads = {{2, kRawStart + 6s}, {3, kRawStart + 6500ms}, {6, kRawStart + 9s}};
+    // Raw time goes back to 7 s, as no real clock does: the order of the reads is kept.
+    Replay replay({segment_of({header_of(1), read_of("one", 5s), chunk, read_of("-", 7s)})});
+    replay.host.wait(4s);
+    replay.configure();
+    CHECK(replay.device.next_due() == kJournalStart + 5s);
+    replay.host.wait_until(kJournalStart + 5s - 1ns);
+    CHECK(replay.host.line.pieces.empty());
+    replay.host.listen();
+    CHECK(replay.heard() == "oneabcdef-");
+    CHECK(replay.left() == Times{5s, 6s, 6500ms, 9s, 9s});
+    CHECK(replay.host.line.pieces.at(2).bytes.size() == 1);
+    CHECK_FALSE(replay.device.next_due());
 }
 
 TEST_CASE("a host that starts late gets the missed bytes at once and the rest on time",
           "[sim][replay]") {
-    Recorded recorded;
-    recorded.three_words();
-    Device device = recorded.device();
-    ReplayHost host(device, kJournalStart + 7s);
-    host.configure({}, kProfile);
-    host.wait(0s);
-    CHECK(text_of(host.line) == "onetwo");
-    CHECK(host.line.pieces.front().leaves == kJournalStart + 7s);
-    host.listen();
-    CHECK(text_of(host.line) == "onetwothree");
-    CHECK(host.line.pieces.back().leaves == kJournalStart + 9s);
+    Replay replay({three_words()}, Timing::as_recorded, kJournalStart + 7s);
+    replay.configure();
+    replay.host.wait(0s);
+    CHECK(replay.heard() == "onetwo");
+    replay.host.listen();
+    CHECK(replay.heard() == "onetwothree");
+    CHECK(replay.left() == Times{7s, 7s, 9s});
 }
 
 TEST_CASE("without a shared clock the recording begins when the host begins", "[sim][replay]") {
-    Recorded recorded;
-    recorded.segment({header_of(1), read_of("one", 5s), read_of("two", 6s)});
-    Device device = recorded.device(Timing::from_host_start);
-    ReplayHost host(device, kJournalStart + 24h);
-    host.wait(1h);
-    host.configure({}, kProfile);
-    host.listen();
-    REQUIRE(host.line.pieces.size() == 2);
-    CHECK(host.line.pieces[0].leaves == kJournalStart + 25h);
-    CHECK(host.line.pieces[1].leaves == kJournalStart + 25h + 1s);
+    Replay replay({three_words()}, Timing::from_host_start, kJournalStart + 24h);
+    replay.host.wait(1h);
+    replay.configure();
+    replay.host.listen();
+    CHECK(replay.left() == Times{25h, 25h + 1s, 25h + 4s});
 }
 
 TEST_CASE("a replay as fast as it is read sends whenever the line accepts more", "[sim][replay]") {
-    Recorded recorded;
-    recorded.segment({header_of(1), read_of("one", 5s), read_of("two", 600s), read_of("3", 700s)});
-    Device device = recorded.device(Timing::as_fast_as_read);
-    ReplayHost host(device, kJournalStart - 1h);
-    host.configure({}, kProfile);
-    host.line.capacity = 2;
-    host.wait(0s);
-    CHECK(text_of(host.line) == "onetwo");
-    CHECK(device.next_due() == host.now());
-    host.line.pieces.clear();
-    host.wait(0s);
-    CHECK(text_of(host.line) == "3");
-    CHECK_FALSE(device.next_due());
+    Replay replay({three_words()}, Timing::as_fast_as_read, kJournalStart - 1h);
+    replay.configure();
+    replay.host.line.capacity = 2;
+    replay.host.wait(0s);
+    CHECK(replay.heard() == "onetwo");
+    CHECK(replay.device.next_due() == replay.host.now());
+    replay.host.line.pieces.clear();
+    replay.host.wait(0s);
+    CHECK(replay.heard() == "three");
+    CHECK_FALSE(replay.device.next_due());
 }
 
 TEST_CASE("segments of a session follow each other without a break", "[sim][replay]") {
-    Recorded recorded;
-    recorded.segment({header_of(1), read_of("one", 5s)});
-    recorded.segment({header_of(1, 6s)});
-    recorded.segment({header_of(1, 7s), read_of("two", 8s)});
-    Device device = recorded.device();
-    ReplayHost host(device, kJournalStart);
-    host.configure({}, kProfile);
-    host.listen();
-    CHECK(text_of(host.line) == "onetwo");
-    CHECK(device.report().sessions == 1);
-    CHECK_FALSE(device.next_due());
+    Replay replay({segment_of({header_of(1), read_of("one", 5s)}), segment_of({header_of(1, 6s)}),
+                   segment_of({header_of(1, 7s), read_of("two", 8s)})});
+    replay.configure();
+    replay.host.listen();
+    CHECK(replay.heard() == "onetwo");
+    CHECK(replay.device.report().sessions == 1);
+    CHECK_FALSE(replay.device.next_due());
 }
 
 TEST_CASE("segments with one session id are two sessions if the boot differs or raw time goes back",
           "[sim][replay]") {
-    Recorded recorded;
-    recorded.segment({header_of(1, 10s), read_of("one", 15s)});
     auto other_day = header_of(1);
     other_day.clock.realtime += 24h;
     if (GENERATE(false, true)) {
@@ -211,86 +169,60 @@ TEST_CASE("segments with one session id are two sessions if the boot differs or 
         other_day.clock.raw += 10s;
     }
     const Nanoseconds read = other_day.clock.raw - kRawStart + 5s;
-    recorded.segment({other_day, read_of("two", read)});
-    Device device = recorded.device();
-    ReplayHost host(device, kJournalStart);
-    host.configure({}, kProfile);
-    host.listen();
-    CHECK(text_of(host.line) == "one");
-    host.line.pieces.clear();
-    host.configure({}, kProfile);
-    host.wait_until(kJournalStart + 24h);
-    host.listen();
-    CHECK(text_of(host.line) == "two");
-    CHECK(host.line.pieces.back().leaves == kJournalStart + 24h + 5s);
-    CHECK(device.report().sessions == 2);
+    Replay replay({segment_of({header_of(1, 10s), read_of("one", 15s)}),
+                   segment_of({other_day, read_of("two", read)})});
+    replay.configure();
+    replay.host.listen();
+    CHECK(replay.heard() == "one");
+    replay.configure();
+    replay.host.wait_until(kJournalStart + 24h);
+    replay.host.listen();
+    CHECK(replay.heard() == "two");
+    CHECK(replay.left() == Times{24h + 5s});
+    CHECK(replay.device.report().sessions == 2);
 }
 
 TEST_CASE("a session ends in configuration mode, and the next waits for a new start",
           "[sim][replay]") {
-    Recorded recorded;
-    recorded.segment({header_of(1), read_of("one", 5s)});
-    recorded.segment({header_of(2, 6s)});  // A session without a byte.
     auto third = header_of(3, 20s);
     third.serial_number = GENERATE("T0000007", "T0000008");
-    recorded.segment({third, read_of("three", 25s)});
     const auto timing = GENERATE(Timing::as_recorded, Timing::as_fast_as_read);
-    Device device = recorded.device(timing);
-    ReplayHost host(device, kJournalStart);
-    host.configure({}, kProfile);
-    host.listen();
-    CHECK(text_of(host.line) == "one");
-    host.wait(1h);
-    CHECK(text_of(host.line) == "one");
-    REQUIRE(device.next_due());
-    host.line.pieces.clear();
-    CHECK(host.configure({}, kProfile).serial_number == third.serial_number);
-    host.listen();
-    CHECK(text_of(host.line) == "three");
-    CHECK(device.report().sessions == 2);
-    CHECK_FALSE(device.next_due());
+    Replay replay({segment_of({header_of(1), read_of("one", 5s)}),
+                   segment_of({header_of(2, 6s)}),  // A session without a byte.
+                   segment_of({third, read_of("three", 25s)})},
+                  timing);
+    replay.configure();
+    replay.host.listen();
+    replay.host.wait(1h);
+    CHECK(replay.heard() == "one");
+    REQUIRE(replay.device.next_due());
+    CHECK(replay.configure().serial_number == third.serial_number);
+    replay.host.listen();
+    CHECK(replay.heard() == "three");
+    CHECK(replay.device.report().sessions == 2);
+    CHECK_FALSE(replay.device.next_due());
 }
 
-TEST_CASE("a host that stops and starts again continues with the next recorded byte",
+TEST_CASE("a host that stops and starts again continues with the first byte it has not seen",
           "[sim][replay]") {
-    Recorded recorded;
-    recorded.three_words();
-    Device device = recorded.device();
-    ReplayHost host(device, kJournalStart);
-    host.configure({}, kProfile);
-    host.wait_until(kJournalStart + 5s);
-    CHECK(text_of(host.line) == "one");
-    host.stop();
-    host.wait(30s);
-    CHECK(text_of(host.line) == "one");
-    host.configure({}, kProfile);
-    host.listen();
-    CHECK(text_of(host.line) == "twothree");
-    CHECK(device.report().sessions == 1);
-}
-
-TEST_CASE("bytes that a host has not seen when it stops are replayed when it starts again",
-          "[sim][replay]") {
-    Recorded recorded;
-    recorded.three_words();
-    Device device = recorded.device();
-    ReplayHost host(device, kJournalStart);
-    host.configure({}, kProfile);
-    host.wait_until(kJournalStart + 6s);
-    host.line.seen = 1;
-    host.stop();
-    CHECK(text_of(host.line) == "one");
-    host.configure({}, kProfile);
-    host.listen();
-    CHECK(text_of(host.line) == "twothree");
+    const bool has_seen_all = GENERATE(true, false);
+    Replay replay({three_words()});
+    replay.configure();
+    replay.host.wait_until(kJournalStart + (has_seen_all ? 5s : 6s));
+    if (!has_seen_all) replay.host.line.seen = 1;
+    replay.host.stop();
+    replay.host.wait(30s);
+    CHECK(replay.heard() == "one");
+    replay.configure();
+    replay.host.listen();
+    CHECK(replay.heard() == "twothree");
+    CHECK(replay.device.report().sessions == 1);
 }
 
 TEST_CASE("a host that took a paused replay for a silent sensor misses no byte", "[sim][replay]") {
-    Recorded recorded;
-    recorded.three_words();
-    Device device = recorded.device();
-    ReplayHost host(device, kJournalStart);
-    host.configure({}, kProfile);
+    Replay replay({three_words()});
+    ReplayHost& host = replay.host;
+    replay.configure();
     host.wait_until(kJournalStart + 5s);
     host.line.seen = 1;
     host.wait_until(kJournalStart + 8s);
@@ -301,88 +233,77 @@ TEST_CASE("a host that took a paused replay for a silent sensor misses no byte",
     CHECK(wire::ConfigMode::from_mode_ctrl(*mode));
     host.wait_until(kJournalStart + 10s);
     CHECK(host.line.pieces.size() == 2);
-    host.configure({}, kProfile);
+    replay.configure();
     host.listen();
-    CHECK(text_of(host.line) == "twothree");
-    CHECK(device.report().sessions == 1);
-    CHECK(device.report().restarts == 1);
-    CHECK(device.report().longest_delay == 1s);
+    CHECK(replay.heard() == "twothree");
+    CHECK(replay.device.report().sessions == 1);
+    CHECK(replay.device.report().restarts == 1);
+    CHECK(replay.device.report().longest_delay == 1s);
 }
 
 TEST_CASE("a clock step of the recording host is not replayed within a boot, a step back never",
           "[sim][replay]") {
-    Recorded recorded;
-    recorded.segment({header_of(1), read_of("one", 5s)});
     auto stepped = header_of(2, 10s);
     stepped.clock.realtime += 1h;
-    recorded.segment({stepped, read_of("two", 12s)});
     auto rebooted = header_of(3, 20s);
     rebooted.boot_id = "another";
     rebooted.clock.raw = RawTime(3s);
-    recorded.segment({rebooted, {journal::RxChunk{{std::byte{1}}, {{1, RawTime(5s)}}}}});
     auto set_back = rebooted;
     set_back.session.bytes[0] = 4;
     set_back.boot_id = "a third";
     set_back.clock.realtime -= 24h;
-    recorded.segment({set_back, {journal::RxChunk{{std::byte{1}}, {{1, RawTime(9s)}}}}});
-    Device device = recorded.device();
-    ReplayHost host(device, kJournalStart);
-    std::vector<UtcTime> left;
-    for (int session = 0; session < 4; ++session) {
-        host.configure({}, kProfile);
-        host.listen();
-        left.push_back(host.line.pieces.back().leaves);
+    const auto byte_at = [](RawTime time) { return journal::RxChunk{{std::byte{1}}, {{1, time}}}; };
+    Replay replay({segment_of({header_of(1), read_of("one", 5s)}),
+                   segment_of({stepped, read_of("two", 12s)}),
+                   segment_of({rebooted, byte_at(RawTime(5s))}),
+                   segment_of({set_back, byte_at(RawTime(9s))})});
+    for (const Nanoseconds expected : Times{5s, 12s, 22s, 22s}) {
+        replay.configure();
+        replay.host.listen();
+        CHECK(replay.left().back() == expected);
     }
-    CHECK(left == std::vector<UtcTime>{kJournalStart + 5s, kJournalStart + 12s, kJournalStart + 22s,
-                                       kJournalStart + 22s});
 }
 
 TEST_CASE("settings other than the recorded ones are refused in one line", "[sim][replay]") {
-    Recorded recorded;
-    const auto file = recorded.segment({header_of(1), read_of("one", 5s)});
     wire::SensorSettings settings;
-    const auto refusal = [&] {
-        Device device = recorded.device();
-        ReplayHost host(device, kJournalStart);
-        try {
-            host.configure(settings, kProfile);
-        } catch (const std::runtime_error& error) {
-            return std::string(error.what());
-        }
-        return std::string();
-    };
-    const std::string recorded_with =
-        "; " + file.string() + " was recorded with 50 Hz, k512_fc9, BURST_CTRL 0xC703";
-    CHECK(refusal().empty());
-    settings.output_rate_hz = 100;
-    CHECK(refusal() == "the host asks for 100 Hz, k512_fc9, BURST_CTRL 0xC703" + recorded_with);
-    settings = {};
-    settings.layout = *wire::BurstLayout::from_burst_ctrl(0x4702);
-    CHECK(refusal() == "the host asks for 50 Hz, k512_fc9, BURST_CTRL 0x4702" + recorded_with);
-    settings = {};
-    settings.filter_code = 0xE;
-    CHECK(refusal() == "the host asks for 50 Hz, user512, BURST_CTRL 0xC703" + recorded_with);
+    std::string asked;
+    SECTION("the recorded ones") {}
+    SECTION("rate") {
+        settings.output_rate_hz = 100;
+        asked = "100 Hz, k512_fc9, BURST_CTRL 0xC703";
+    }
+    SECTION("layout") {
+        settings.layout = *wire::BurstLayout::from_burst_ctrl(0x4702);
+        asked = "50 Hz, k512_fc9, BURST_CTRL 0x4702";
+    }
+    SECTION("filter") {
+        settings.filter_code = 0xE;
+        asked = "50 Hz, user512, BURST_CTRL 0xC703";
+    }
+    Replay replay({three_words()});
+    if (asked.empty()) {
+        CHECK_NOTHROW(replay.configure(settings));
+    } else {
+        CHECK_THROWS_WITH(replay.configure(settings),
+                          "the host asks for " + asked + "; " + replay.files[0].string() +
+                              " was recorded with 50 Hz, k512_fc9, BURST_CTRL 0xC703");
+    }
 }
 
 TEST_CASE("a damaged tail is left out and reported, and good data before and after it are replayed",
           "[sim][replay]") {
-    Recorded recorded;
-    const auto file =
-        recorded.segment({header_of(1), read_of("one", 5s), read_of("two", 6s), read_of("x", 7s)});
-    recorded.segment({header_of(1, 10s), read_of("three", 12s)});
-    auto bytes = test::read_bytes(file);
+    auto damaged =
+        segment_of({header_of(1), read_of("one", 5s), read_of("two", 6s), read_of("x", 7s)});
+    damaged.back() ^= std::byte{1};
+    Replay replay({damaged, segment_of({header_of(1, 10s), read_of("three", 12s)})});
+    replay.configure();
+    replay.host.listen();
+    CHECK(replay.heard() == "onetwothree");
+    REQUIRE(replay.device.recording().damage().size() == 1);
+    const RecordingDamage& damage = replay.device.recording().damage().front();
     const std::size_t last_chunk = journal::kChunkHeaderSize + 12 + 12 + 1;
-    bytes[bytes.size() - 1] ^= std::byte{1};
-    test::write_bytes(file, bytes);
-    Device device = recorded.device();
-    ReplayHost host(device, kJournalStart);
-    host.configure({}, kProfile);
-    host.listen();
-    CHECK(text_of(host.line) == "onetwothree");
-    REQUIRE(device.recording().damage().size() == 1);
-    const RecordingDamage& damage = device.recording().damage().front();
-    CHECK(damage.file == file);
-    CHECK(damage.offset == bytes.size() - last_chunk);
+    CHECK(damage.file == replay.files[0]);
+    CHECK(damage.offset == damaged.size() - last_chunk);
     CHECK(damage.byte_count == last_chunk);
     CHECK(damage.reason == "wrong checksum");
 }

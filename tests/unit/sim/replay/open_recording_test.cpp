@@ -1,30 +1,18 @@
 #include "tests/support/catch.hpp"
 
 #include "protocol/core/input_error.hpp"
-#include "protocol/journal/journal_codec.hpp"
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/wire/device_profile.hpp"
 #include "sim/replay/recording.hpp"
-#include "tests/support/file_bytes.hpp"
-#include "tests/support/temporary_directory.hpp"
-#include "tests/unit/journal/journal_samples.hpp"
+#include "tests/unit/journal/segment_fixture.hpp"
 
 namespace a351::sim::replay {
 namespace {
 
 namespace fs = std::filesystem;
+using journal::segment_of;
 
-std::vector<std::byte> segment_of(const std::vector<journal::Chunk>& chunks) {
-    auto bytes = journal::encode_preamble();
-    std::uint32_t sequence = 0;
-    for (const auto& chunk : chunks) {
-        const auto more = journal::encode_chunk(chunk, sequence++);
-        bytes.insert(bytes.end(), more.begin(), more.end());
-    }
-    return bytes;
-}
-
-std::vector<std::byte> good_segment(std::uint16_t firmware = 1) {
+journal::Bytes good_segment(std::uint16_t firmware = 1) {
     auto header = test::journal_header();
     header.firmware = firmware;
     return segment_of({header, test::rx_chunk("\x80"
@@ -83,6 +71,10 @@ TEST_CASE("a file that cannot be replayed is refused with its name and what is a
               std::string::npos);
     }
     CHECK(with(good_segment()) == "accepted");
+
+    // Journal segments and other files cannot be mixed.
+    const fs::path other = directory.write("b", "000001D ");
+    CHECK(refusal({file, other}).starts_with(other.string() + ": not a journal segment, "));
 }
 
 TEST_CASE("a directory is replayed as its segments in the order of their numbers",
@@ -126,14 +118,6 @@ TEST_CASE("in a directory, segments without a header are skipped and reported", 
     // A file without a header is an error if it is named itself.
     CHECK(refusal({directory.path() / "00000001_x.a351j", empty_file})
               .starts_with(empty_file.string() + ": empty"));
-}
-
-TEST_CASE("journal segments and other files cannot be mixed", "[sim][replay]") {
-    const test::TemporaryDirectory directory;
-    test::write_bytes(directory.path() / "a.a351j", good_segment());
-    test::write_bytes(directory.path() / "b", test::bytes_of("000001D "));
-    CHECK(refusal({directory.path() / "a.a351j", directory.path() / "b"})
-              .starts_with((directory.path() / "b").string() + ": not a journal segment, "));
 }
 
 }  // namespace a351::sim::replay
