@@ -5,34 +5,15 @@
 #include "protocol/wire/burst_decoder.hpp"
 #include "sim/signal/signal_source.hpp"
 #include "tests/unit/sim/device/machine_script.hpp"
-#include "tests/unit/sim/truth_reader.hpp"
 
 using namespace a351;
 using namespace a351::sim;
 using namespace a351::sim::device;
 using namespace a351::sim::scenario;
 using namespace a351::sim::signal;
-using namespace a351::sim::truth;
 using namespace std::chrono_literals;
 
 namespace {
-
-/// Everything the device sends; full at `most` bytes.
-struct Collected final : LineSink {
-    void send(std::span<const std::byte> sent, UtcTime leaves,
-              const truth::Record* frame) override {
-        bytes.insert(bytes.end(), sent.begin(), sent.end());
-        if (frame == nullptr) return;
-        truth.push_back(*frame);
-        times.push_back(leaves);
-    }
-    [[nodiscard]] bool is_full() const override { return bytes.size() >= most; }
-
-    std::size_t most = SIZE_MAX;
-    std::vector<std::byte> bytes;
-    std::vector<truth::Record> truth;
-    std::vector<UtcTime> times;
-};
 
 struct Rig {
     void advance_to(UtcTime simulated) { stream.advance_to({simulated, bench.now}, line); }
@@ -45,26 +26,6 @@ struct Rig {
     Bench bench;
     DeviceStream stream{source, bench.machine};
     Collected line;
-};
-
-/// A source of numbered samples: x of sample k is k.
-class CountingSource final : public SampleSource {
-public:
-    explicit CountingSource(int rate_hz) : rate_hz_(rate_hz) {}
-    [[nodiscard]] int rate_hz() const noexcept override { return rate_hz_; }
-    [[nodiscard]] std::optional<UtcTime> next_instant() const override {
-        return UtcTime(index * Nanoseconds(1s) / rate_hz_);
-    }
-    [[nodiscard]] TimedSample next() override {
-        TimedSample sample{*next_instant(), index, {}};
-        sample.values.axes_counts[0] = static_cast<std::int32_t>(index);
-        ++index;
-        return sample;
-    }
-    std::int64_t index = 0;
-
-private:
-    int rate_hz_;
 };
 
 std::vector<wire::BurstValues> decode(const std::vector<std::byte>& bytes) {
@@ -80,7 +41,8 @@ std::vector<wire::BurstValues> decode(const std::vector<std::byte>& bytes) {
 
 }  // namespace
 
-TEST_CASE("a frame is sent when it is due and not before", "[sim][device_stream]") {
+TEST_CASE("frames are sent when they are due, decode to the truth, and COUNT advances evenly",
+          "[sim][device_stream]") {
     Rig rig;
     rig.bench.start_logging();
     const UtcTime start = rig.scenario.start();
@@ -90,10 +52,17 @@ TEST_CASE("a frame is sent when it is due and not before", "[sim][device_stream]
     CHECK(rig.line.bytes.empty());
     rig.advance_to(start + 140ms + delay);
     CHECK(rig.line.bytes.size() == 24);
-    REQUIRE(rig.line.truth.size() == 1);
-    CHECK(rig.line.truth[0].utc == start + 140ms);
-    CHECK(rig.line.truth[0].grid_index == 7);
-    CHECK(rig.line.times[0] == start + 140ms + delay);
+    rig.advance_to(start + 10s);
+    const auto& truth = rig.line.truth;
+    const auto frames = decode(rig.line.bytes);
+    REQUIRE(frames.size() == truth.size());
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        CHECK(frames[i] == truth[i].values);
+        CHECK(frames[i].count == 80 * (i + 1));
+        CHECK(truth[i].grid_index == i + 7);
+        CHECK(truth[i].utc == start + static_cast<std::int64_t>(i + 7) * 20ms);
+        CHECK(rig.line.times[i] == truth[i].utc + delay);
+    }
 }
 
 TEST_CASE("a full line delays the device and does not change what it sends",
@@ -129,21 +98,6 @@ TEST_CASE("a device far behind catches up in pieces and answers commands between
     CHECK(*rig.stream.next_due() == end + 20ms);
 }
 
-TEST_CASE("frames decode to the truth, and COUNT advances evenly", "[sim][device_stream]") {
-    Rig rig;
-    rig.bench.start_logging();
-    rig.advance_to(rig.scenario.start() + 10s);
-    const auto& truth = rig.line.truth;
-    const auto frames = decode(rig.line.bytes);
-    REQUIRE(frames.size() == truth.size());
-    for (std::size_t i = 0; i < frames.size(); ++i) {
-        CHECK(frames[i] == truth[i].values);
-        CHECK(frames[i].count == 80 * (i + 1));
-        CHECK(truth[i].grid_index == i + 7);
-        CHECK(truth[i].utc == rig.scenario.start() + static_cast<std::int64_t>(i + 7) * 20ms);
-    }
-}
-
 TEST_CASE("the sample grid continues while sampling is stopped", "[sim][device_stream]") {
     Rig rig, undisturbed;
     undisturbed.bench.start_logging();
@@ -154,6 +108,8 @@ TEST_CASE("the sample grid continues while sampling is stopped", "[sim][device_s
     const std::size_t first_run = rig.line.truth.size();
     rig.advance_to(start + 20s);
     CHECK(rig.line.truth.size() == first_run);
+    rig.receive("02 00 0D");  // Answered at once.
+    CHECK(hex_of(std::span(rig.line.bytes).last(4)) == "02 04 00 0D");
     rig.receive("83 01 0D");
     rig.advance_to(start + 30s);
     undisturbed.advance_to(start + 30s);
@@ -165,16 +121,6 @@ TEST_CASE("the sample grid continues while sampling is stopped", "[sim][device_s
     CHECK(restarted.values.count == 80);
     CHECK(restarted.sampling_run == 2);
     CHECK(restarted.values.axes == undisturbed.line.truth[1008 - 7].values.axes);
-}
-
-TEST_CASE("an answer is sent at once, between frames", "[sim][device_stream]") {
-    Rig rig;
-    rig.bench.start_logging();
-    rig.advance_to(rig.scenario.start() + 1s);
-    const std::size_t size = rig.line.bytes.size();
-    rig.receive("02 00 0D");
-    CHECK(rig.line.bytes.size() == size + 4);
-    CHECK(hex_of(std::span(rig.line.bytes).last(4)) == "02 00 00 0D");
 }
 
 TEST_CASE("an output rate above the grid's repeats each sample", "[sim][device_stream]") {
@@ -193,7 +139,7 @@ TEST_CASE("an output rate above the grid's repeats each sample", "[sim][device_s
 TEST_CASE("after a stop between repeats of a sample a lower rate is on time from its first frame",
           "[sim][device_stream]") {
     // Stopped at 1000/s with 15 of 20 repeats sent, started again at 50/s before the next sample.
-    CountingSource source(50);
+    GridSource source(50, [](std::int64_t) { return kSample; });
     Bench bench;
     DeviceStream stream(source, bench.machine);
     Collected line;
@@ -219,30 +165,4 @@ TEST_CASE("after a stop between repeats of a sample a lower rate is on time from
         CHECK(line.truth[i].grid_index == 51 + nth);
         CHECK(line.truth[i].values.count == 80 * (nth + 1));
     }
-}
-
-TEST_CASE("a truth file gives its records back", "[sim][truth_file]") {
-    const auto file = std::filesystem::temp_directory_path() / "a351_truth_test.bin";
-    truth::Record record;
-    record.utc = *parse_rfc3339("2017-07-16T00:00:00.020Z");
-    record.values.axes = {-1, 2, -2147483647};
-    record.values.temperature = -1981;
-    record.values.count = 65520;
-    record.sampling_run = 3;
-    record.grid_index = 4'000'000'000U;
-    record.fate = Fate::misplaced;
-    truth::Writer writer(file);
-    writer.append(record);
-    writer.append({});
-    writer.close();
-    CHECK(std::filesystem::file_size(file) == 16 + 2 * 40);
-    const auto records = read_truth(file);
-    REQUIRE(records.size() == 2);
-    CHECK(records[0].utc == record.utc);
-    CHECK(records[0].values == record.values);
-    CHECK(records[0].sampling_run == 3);
-    CHECK(records[0].grid_index == 4'000'000'000U);
-    CHECK(records[0].fate == Fate::misplaced);
-    CHECK(records[1].fate == Fate::intact);
-    std::filesystem::remove(file);
 }

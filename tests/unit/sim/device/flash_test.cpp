@@ -1,10 +1,10 @@
-#include <filesystem>
-#include <fstream>
 #include "tests/support/catch.hpp"
 
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/text_file.hpp"
 #include "sim/device/flash_memory.hpp"
+#include "tests/support/file_bytes.hpp"
+#include "tests/support/temporary_directory.hpp"
 #include "tests/unit/sim/device/machine_script.hpp"
 
 using namespace a351;
@@ -22,15 +22,10 @@ void back_up(Bench& bench) {
     bench.wait(RegisterMachine::kFlashBackupTime);
 }
 
-void power_cycle(Bench& bench) {
-    bench.machine.power_cycle(bench.now);
-    bench.wait(power_on_time(*wire::find_profile("A352AD10")));
-}
-
-std::filesystem::path scratch(const std::string& name) {
-    const auto file = std::filesystem::temp_directory_path() / ("a351-flash-test-" + name);
-    std::filesystem::remove(file);
-    return file;
+/// Returns the first coefficient that the host reads.
+std::string first_coefficient(Bench& bench) {
+    bench.send({"FE 01", "9B 08", "9A 00", "96 01"});
+    return bench.read("W1:18");
 }
 
 }  // namespace
@@ -38,29 +33,33 @@ std::filesystem::path scratch(const std::string& name) {
 TEST_CASE("FLASH_BACKUP reads 1 for 310 ms, and then the settings survive power cycle and reset",
           "[sim][flash]") {
     Bench bench;
-    bench.send({"FE 01", "85 06", "86 06", "8D C7", "C7 05", "9E 03", "8A 08"});
+    bench.send({"FE 01", "85 06", "86 06", "89 03", "8D C7", "C7 05", "9E 03", "83 40", "8A 08"});
     CHECK(bench.read("W1:0A") == "0008");
     bench.wait(RegisterMachine::kFlashBackupTime);
     CHECK(bench.read("W1:0A") == "0000");
     CHECK(bench.read("W0:04") == "0000");
     bench.write("W1:85 05");  // Not backed up.
     for (const bool by_reset : {false, true}) {
-        by_reset ? bench.machine.spontaneous_reset(bench.now)
-                 : bench.machine.power_cycle(bench.now);
-        bench.wait(RegisterMachine::kResetTime);
+        by_reset ? bench.reset() : bench.power_cycle();
+        CHECK(bench.read("W1:02") == "0026");  // Without the self test that ran.
         CHECK(bench.read("W1:04") == "0600");
-        CHECK(bench.read("W1:06") == "0006");
+        CHECK(bench.read("W1:06") == "0006");  // Without the busy bit.
+        CHECK(bench.machine.baud() == 115200);
         CHECK(bench.read("W1:0C") == "C702");
         CHECK(bench.read("W1:46") == "05F1");
         CHECK(bench.read("W1:1E") == "0003");
     }
+    bench.write("W1:86 08");  // This filter does not fit the rate.
+    back_up(bench);
+    bench.power_cycle();
+    CHECK(bench.read("W0:06") == "0002");
 }
 
 TEST_CASE("a power failure during a backup leaves the flash as it was", "[sim][flash]") {
     Bench bench;
     bench.send({"FE 01", "85 06", "8A 08"});
     bench.wait(RegisterMachine::kFlashBackupTime - 2ms);
-    power_cycle(bench);
+    bench.power_cycle();
     CHECK(bench.read("W1:04") == "0400");
     CHECK(bench.machine.flash() == FlashMemory{});
 }
@@ -75,7 +74,7 @@ TEST_CASE("FLASH_RST takes 1.9 s and has its effect only after the next reset", 
     CHECK(bench.read("W1:0A") == "0004");
     CHECK(bench.read("W1:0A") == "0000");
     CHECK(bench.read("W1:04") == "0600");
-    power_cycle(bench);
+    bench.power_cycle();
     CHECK(bench.read("W1:04") == "0400");
 }
 
@@ -91,49 +90,8 @@ TEST_CASE("a failed backup is reported in FLASH_BU_ERR", "[sim][flash]") {
     CHECK(full.read("W0:04") == "0001");
 }
 
-TEST_CASE("running self tests and busy bits are not kept in flash", "[sim][flash]") {
-    Bench bench;
-    bench.send({"FE 01", "86 0E", "83 40", "8A 08"});
-    bench.wait(RegisterMachine::kFlashBackupTime);
-    power_cycle(bench);
-    CHECK(bench.read("W1:02") == "0026");
-    CHECK(bench.read("W1:06") == "000E");
-}
-
-TEST_CASE("a baud rate in flash applies from the next start", "[sim][flash]") {
-    Bench bench;
-    bench.write("W1:89 03");
-    back_up(bench);
-    bench.machine.power_cycle(bench.now);
-    CHECK(bench.machine.baud() == 115200);
-}
-
-TEST_CASE("an invalid pair of rate and filter in flash is reported after the start",
-          "[sim][flash]") {
-    Bench bench;
-    bench.write("W1:85 06");
-    back_up(bench);
-    power_cycle(bench);
-    CHECK(bench.read("W0:06") == "0002");
-}
-
-TEST_CASE("a new user filter is written to the flash when it is selected", "[sim][flash]") {
-    int stores = 0;
-    Bench bench;
-    bench.machine.on_flash_written([&stores](const FlashMemory&) { return ++stores > 0; });
-    bench.send({"FE 01", "98 A5", "96 02"});
-    bench.wait(UserFilter::kWriteTime);
-    CHECK(stores == 0);
-    bench.send({"86 0B", "86 0C"});
-    CHECK(stores == 1);
-}
-
 TEST_CASE("coefficients are lost at a power cycle unless their filter was selected",
           "[sim][flash]") {
-    const auto read_first = [](Bench& bench) {
-        bench.send({"FE 01", "9B 08", "9A 00", "96 01"});
-        return bench.read("W1:18");
-    };
     for (const bool is_selected : {false, true}) {
         CAPTURE(is_selected);
         std::optional<FlashMemory> kept;
@@ -145,14 +103,14 @@ TEST_CASE("coefficients are lost at a power cycle unless their filter was select
         });
         bench.send({"FE 01", "98 55", "96 02"});
         bench.wait(UserFilter::kWriteTime);
-        if (is_selected) bench.write("W1:86 0B");
-        CHECK(read_first(bench) == "0055");
+        if (is_selected) bench.send({"86 0B", "86 0C"});  // Written once.
+        CHECK(first_coefficient(bench) == "0055");
         CHECK(bench.machine.flash() == kept.value_or(FlashMemory{}));
         const std::string expected = is_selected ? "0055" : "00FF";
-        power_cycle(bench);
-        CHECK(read_first(bench) == expected);
+        bench.power_cycle();
+        CHECK(first_coefficient(bench) == expected);
         Bench next_run("A352AD10", kIdentity, kept.value_or(FlashMemory{}));
-        CHECK(read_first(next_run) == expected);
+        CHECK(first_coefficient(next_run) == expected);
         CHECK(stores == (is_selected ? 1 : 0));
     }
 }
@@ -170,7 +128,7 @@ TEST_CASE("a power cycle writes nothing to the flash, and the user filter in it 
     REQUIRE(stores == 1);
     bench.send({"FE 01", "98 55", "96 02"});
     bench.wait(UserFilter::kWriteTime);
-    power_cycle(bench);
+    bench.power_cycle();
     CHECK(stores == 1);
     Bench next_run("A352AD10", kIdentity, bench.machine.flash());
     for (Bench* started : {&bench, &next_run}) {
@@ -198,54 +156,37 @@ TEST_CASE("a rate that excludes the long-term filter leaves the other registers 
     CHECK(bench.read("W1:04") == "0300");
 }
 
-TEST_CASE("a flash file with the long-term filter at a rate that excludes it is refused",
-          "[sim][flash]") {
-    const auto file = scratch("pair");
-    for (const bool is_too_fast : {false, true}) {
-        write_flash_file(file, FlashMemory{});
-        std::string text = text::read_text_file(file);
-        const auto set = [&text](std::string_view key, std::string_view value) {
-            const std::size_t at = text.find(key) + key.size() + std::string_view(" = ").size();
-            text.replace(at, value.size(), value);
-        };
-        set("LONGFILT_CTRL", "0x0001");
-        set("SMPL_CTRL", is_too_fast ? "0x0200" : "0x0300");
-        std::ofstream(file, std::ios::trunc) << text;
-        if (is_too_fast) {
-            CHECK_THROWS_WITH(
-                read_flash_file(file, profile()),
-                ContainsSubstring("pair:11:") && ContainsSubstring("LONGFILT_CTRL = 0x1"));
-        } else {
-            CHECK_NOTHROW(read_flash_file(file, profile()));
-        }
-    }
-    std::filesystem::remove(file);
-}
-
 TEST_CASE("any content of the flash can be written to a file and read back", "[sim][flash]") {
-    const auto file = scratch("any");
+    const test::TemporaryDirectory directory;
+    const auto file = directory.path() / "any";
     FlashMemory memory;
     for (std::size_t i = 0; i < memory.coefficients.size(); ++i) {
         memory.coefficients[i] = static_cast<std::uint8_t>(i * 7);
     }
     memory.settings.back() = 0x0AF6;
-    write_flash_file(file, memory);
-    CHECK(read_flash_file(file, profile()) == memory);
-    write_flash_file(file, FlashMemory{});
-    CHECK(read_flash_file(file, profile()) == FlashMemory{});
-    std::filesystem::remove(file);
+    for (const FlashMemory& content : {memory, FlashMemory{}}) {
+        write_flash_file(file, content);
+        CHECK(read_flash_file(file, profile()) == content);
+    }
 }
 
 TEST_CASE("a damaged flash file is refused in one line that names the file and the key",
           "[sim][flash]") {
-    const auto file = scratch("damaged");
+    const test::TemporaryDirectory directory;
+    const auto file = directory.path() / "damaged";
     write_flash_file(file, FlashMemory{});
     const std::string good = text::read_text_file(file);
-    const auto replaced = [&good](std::string_view from, std::string_view to) {
-        std::string text = good;
+    const auto changed = [](std::string text, std::string_view from, std::string_view to) {
         return text.replace(text.find(from), from.size(), to);
     };
+    const auto replaced = [&](std::string_view from, std::string_view to) {
+        return changed(good, from, to);
+    };
+    // The long-term filter and 1000 samples a second exclude each other.
+    const std::string filtered = replaced("LONGFILT_CTRL = 0x0000", "LONGFILT_CTRL = 0x0001");
     const std::pair<std::string, std::string> kDamaged[] = {
+        {changed(filtered, "SMPL_CTRL = 0x0400", "SMPL_CTRL = 0x0200"),
+         ":11: registers.LONGFILT_CTRL = 0x1"},
         {good.substr(0, good.find("\nZALARM")), "ZALARM"},
         {good.substr(0, good.find("= 0x") + 4), "not TOML"},
         {"", "format"},
@@ -263,9 +204,11 @@ TEST_CASE("a damaged flash file is refused in one line that names the file and t
         {replaced("bytes = []", "bytes = [\"000\"]"), "bytes"},
         {replaced("bytes = []", "bytes = [\"" + std::string(4098, '0') + "\"]"), "bytes"},
     };
+    test::write_bytes(file, test::bytes_of(filtered));
+    CHECK_NOTHROW(read_flash_file(file, profile()));
     for (const auto& [text, named] : kDamaged) {
         CAPTURE(text.substr(0, 80), named);
-        std::ofstream(file, std::ios::trunc) << text;
+        test::write_bytes(file, test::bytes_of(text));
         try {
             static_cast<void>(read_flash_file(file, profile()));
             FAIL("accepted");
@@ -275,5 +218,4 @@ TEST_CASE("a damaged flash file is refused in one line that names the file and t
             CHECK_THAT(error.what(), !ContainsSubstring("\n"));
         }
     }
-    std::filesystem::remove(file);
 }

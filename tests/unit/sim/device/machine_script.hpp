@@ -1,11 +1,13 @@
 #pragma once
 
-#include <cctype>
+#include <functional>
 #include <initializer_list>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "sim/device/device_stream.hpp"
 #include "sim/device/register_machine.hpp"
 
 namespace a351::sim::device {
@@ -53,6 +55,9 @@ struct Bench {
 
     /// Sends whole commands, given as their first two bytes; returns the answers as hex.
     std::string send(std::initializer_list<std::string_view> commands) {
+        return send(std::vector(commands));
+    }
+    std::string send(const std::vector<std::string_view>& commands) {
         std::vector<std::byte> answers;
         for (const std::string_view command : commands) {
             machine.receive(bytes_of(std::string(command) + " 0D"), now, answers);
@@ -79,6 +84,15 @@ struct Bench {
         machine.pass_time(now);
     }
 
+    void power_cycle() {
+        machine.power_cycle(now);
+        wait(power_on_time(*wire::find_profile("A352AD10")));
+    }
+    void reset() {
+        machine.spontaneous_reset(now);
+        wait(RegisterMachine::kResetTime);
+    }
+
     /// Gives the machine `count` equal samples; returns the frames as hex.
     std::string sample(int count = 1, const signal::SensorSample& values = kSample) {
         std::vector<std::byte> frames;
@@ -96,6 +110,45 @@ struct Bench {
 
     RegisterMachine machine;
     Nanoseconds now{0};
+};
+
+/// Samples at a rate from time 0; `values` gives those of the n-th.
+class GridSource final : public signal::SampleSource {
+public:
+    using Values = std::function<signal::SensorSample(std::int64_t)>;
+
+    GridSource(int rate_hz, Values values) : rate_hz_(rate_hz), values_(std::move(values)) {}
+    [[nodiscard]] int rate_hz() const noexcept override { return rate_hz_; }
+    [[nodiscard]] std::optional<UtcTime> next_instant() const override {
+        return UtcTime(index_ * Nanoseconds(std::chrono::seconds(1)) / rate_hz_);
+    }
+    [[nodiscard]] signal::TimedSample next() override {
+        const signal::TimedSample sample{*next_instant(), index_, values_(index_)};
+        ++index_;
+        return sample;
+    }
+
+private:
+    int rate_hz_;
+    Values values_;
+    std::int64_t index_ = 0;
+};
+
+/// Everything the device sends; full at `most` bytes.
+struct Collected final : LineSink {
+    void send(std::span<const std::byte> sent, UtcTime leaves,
+              const truth::Record* frame) override {
+        bytes.insert(bytes.end(), sent.begin(), sent.end());
+        if (frame == nullptr) return;
+        truth.push_back(*frame);
+        times.push_back(leaves);
+    }
+    [[nodiscard]] bool is_full() const override { return bytes.size() >= most; }
+
+    std::size_t most = SIZE_MAX;
+    std::vector<std::byte> bytes;
+    std::vector<truth::Record> truth;
+    std::vector<UtcTime> times;
 };
 
 }  // namespace a351::sim::device

@@ -1,10 +1,13 @@
+#include <cmath>
 #include "tests/support/catch.hpp"
 
 #include "protocol/text/csv.hpp"
+#include "sim/device/signal_path.hpp"
 #include "tests/unit/sim/device/machine_script.hpp"
 
 using namespace a351;
 using namespace a351::sim::device;
+using namespace a351::sim::signal;
 using namespace std::chrono_literals;
 
 namespace {
@@ -59,11 +62,8 @@ TEST_CASE("each of the 112 layouts streams its fields at their offsets",
         }
         CHECK(explained == frame.size());
     }
-}
-
-TEST_CASE("without an axis in BURST_CTRL no frame is sent", "[sim][register_machine]") {
     Bench bench;
-    bench.send({"FE 01", "85 06", "86 06", "88 01", "8D C0", "FE 00", "83 01"});
+    bench.send({"FE 01", "85 06", "86 06", "88 01", "8D C0", "FE 00", "83 01"});  // No axis.
     CHECK(bench.sample(10).empty());
 }
 
@@ -107,26 +107,18 @@ TEST_CASE("data registers hold FFFF until the first sample after the transient",
     CHECK(bench.read("W0:32") == "E388");
 }
 
-TEST_CASE("COUNT keeps its last value when sampling stops", "[sim][register_machine]") {
+TEST_CASE("COUNT can jump, counts samples that are not sent, and keeps its value after a stop",
+          "[sim][register_machine]") {
     // A real A352 at 200/s showed 07D0 after 100 samples (dump in the README of py_esensorlib).
     Bench bench;
     bench.send({"FE 01", "88 01", "FE 00", "83 01"});
-    bench.sample(31 + 100);
+    bench.sample(31 + 90);
+    bench.machine.jump_counter(160);
+    bench.sample();
+    bench.machine.skip_sample();
     bench.send({"83 02"});
     bench.sample(10);
     CHECK(bench.read("W0:0A") == "07D0");
-}
-
-TEST_CASE("the counter can jump, and it counts samples that are not sent",
-          "[sim][register_machine]") {
-    Bench bench;
-    bench.start_logging();
-    bench.sample(Bench::kTransient + 1);
-    bench.machine.jump_counter(160);
-    bench.sample();
-    CHECK(bench.read("W0:0A") == "0140");
-    bench.machine.skip_sample();
-    CHECK(bench.read("W0:0A") == "0190");
 }
 
 TEST_CASE("a filter that does not fit the rate gives ALIASI_ERR and 100 g on all axes",
@@ -182,21 +174,10 @@ TEST_CASE("reading a value clears its new-data flag and no other", "[sim][regist
     bench.sample(Bench::kTransient + 1);
     CHECK(bench.send({"80 00"}).size() == 10 * 3 - 1);
     CHECK(bench.read("W0:06") == "0600");
-}
-
-TEST_CASE("new-data flags that are not enabled do not show", "[sim][register_machine]") {
-    Bench bench;
-    bench.send({"FE 01", "81 08", "85 06", "86 06", "FE 00", "83 01"});
+    // Flags that are not enabled do not show.
+    bench.send({"83 02", "FE 01", "81 08", "FE 00", "83 01"});
     bench.sample(Bench::kTransient + 1);
     CHECK(bench.read("W0:06") == "0800");
-}
-
-TEST_CASE("the delay of a frame is the sum of group delay, internal delay and wire time",
-          "[sim][register_machine]") {
-    Bench bench;
-    bench.start_logging();
-    // 511/2 samples of 4 kHz, 430 us, 24 bytes of 10 bits at 460800 baud.
-    CHECK(bench.machine.frame_delay() == 63'875'000ns + 430'000ns + 520'833ns);
 }
 
 TEST_CASE("frames come as fast as the baud rate allows, and UART_OVF reports dropped ones",
@@ -231,13 +212,15 @@ TEST_CASE("frames come as fast as the baud rate allows, and UART_OVF reports dro
     }
 }
 
-TEST_CASE("a frame that waits for the line is late by at most the time of one frame",
+TEST_CASE("a frame is late by group delay, internal delay, wire time and at most one earlier frame",
           "[sim][register_machine]") {
     Bench bench;
     bench.send({"FE 01", "89 03", "85 02", "86 08", "88 01", "8C 03", "8D C7", "FE 00", "83 01"});
     bench.sample(127);
-    const Nanoseconds alone = bench.machine.frame_delay();
-    constexpr Nanoseconds kFrameTime = 2'083'333ns;
+    constexpr Nanoseconds kFrameTime = 2'083'333ns;  // 24 bytes of 10 bits at 115200 baud.
+    // 511/2 samples of 4 kHz, and 430 us.
+    const Nanoseconds alone = 63'875'000ns + 430'000ns + kFrameTime;
+    CHECK(bench.machine.frame_delay() == alone);
     Nanoseconds left_before{0};
     for (int i = 0; i < 1000; ++i) {
         const Nanoseconds wait = bench.machine.frame_delay() - alone;
@@ -263,4 +246,90 @@ TEST_CASE("with EXT_SEL only an external edge makes a sample, and COUNT follows 
     CHECK(frame.substr(21, 11) == "FF FC E3 88");
     CHECK(bench.read("W0:0A") == "01E0");  // Six periods of 80.
     CHECK(bench.sample().empty());
+}
+
+TEST_CASE("frames carry acceleration with offset and alarm limits, or tilt within 60 degrees",
+          "[sim][register_machine]") {
+    struct Row {
+        std::vector<std::string_view> settings;
+        std::array<std::int32_t, 3> axes;
+        std::string_view flag_and_axes;
+    };
+    constexpr std::int32_t k15G = 15 * kOneG;
+    const Row kRows[] = {
+        // Offsets.  Data sheet 8.2: +1.23 g on X is 013AE147.
+        {{"AD 01", "AC 3A", "AF E1", "AE 47"},
+         {kOneG, kOneG, kOneG},
+         "8E 00 02 3A E1 47 01 00 00 00 01 00 00 00"},
+        {{"B1 FF", "B0 FF", "B3 FF", "B2 FF", "B5 FF"},
+         {kOneG, kOneG, kOneG},
+         "8E 00 01 00 00 00 00 FF FF FF 00 00 00 00"},
+        // Beyond an alarm limit the output is the limit, and the alarm flag is set.  Factory limits:
+        // 15 g; a value at the limit is not beyond it.
+        {{}, {k15G + 1, -k15G - 1, k15G}, "8E 18 0F 00 00 00 F1 00 00 00 0F 00 00 00"},
+        // Data sheet 8.2: X within 5 g.
+        {{"C7 05", "C6 FB"},
+         {6 * kOneG, 6 * kOneG, -6 * kOneG},
+         "8E 10 05 00 00 00 06 00 00 00 FA 00 00 00"},
+        // Data sheet 7.8: 2182A470 for +60 degrees or more, DE7D5B90 for -60 degrees or less.
+        {{"80 E4"}, {kOneG, -20 * kOneG, 3 * kOneG}, "8E 08 21 82 A4 70 DE 7D 5B 90 21 82 A4 70"},
+        // An invalid pair of rate and filter shows in tilt as in acceleration, without an alarm.
+        {{"80 E4", "86 08"}, {20 * kOneG, 0, 0}, "8E 02 64 00 00 00 64 00 00 00 64 00 00 00"},
+    };
+    for (const Row& row : kRows) {
+        CAPTURE(row.flag_and_axes);
+        Bench bench;
+        bench.send({"FE 01", "85 06", "86 06", "88 01", "8C 00", "8D 87"});
+        bench.send(row.settings);
+        bench.send({"FE 00", "83 01"});
+        bench.sample(Bench::kTransient, SensorSample{});
+        CHECK(bench.sample(1, {row.axes, 0}) == "80 " + std::string(row.flag_and_axes) + " 0D");
+    }
+}
+
+TEST_CASE("an alarm stays until FLAG is read, by command or by a frame that carries it",
+          "[sim][register_machine]") {
+    const SensorSample shaken{{0, 0, 20 * kOneG}, 0};
+    const SensorSample calm{{0, 0, kOneG}, 0};
+    Bench bench;
+    bench.send({"FE 01", "85 06", "86 06", "88 01", "8C 03", "8D 47", "FE 00", "83 01"});
+    bench.sample(Bench::kTransient);
+    std::vector<std::byte> frames;
+    const auto values = bench.machine.sample(shaken, frames);
+    REQUIRE(values);
+    CHECK(values->flag == 0);  // No FLAG in this frame.
+    bench.sample(5, calm);
+    CHECK((std::stoi(bench.read("W0:06"), nullptr, 16) & 0x1C) == 0x04);
+    CHECK((std::stoi(bench.read("W0:06"), nullptr, 16) & 0x1C) == 0);
+    bench.send({"83 02", "FE 01", "8D C7", "FE 00", "83 01"});
+    bench.sample(Bench::kTransient);
+    CHECK(bench.sample(1, shaken).substr(0, 8) == "80 8E 04");
+    CHECK(bench.sample(1, calm).substr(0, 8) == "80 8E 00");
+}
+
+TEST_CASE("tilt is the arc sine of the acceleration, in radians times 2^29",
+          "[sim][register_machine]") {
+    const auto& profile = *wire::find_profile("A352AD10");
+    for (int i = -86; i <= 86; ++i) {  // sin 60 degrees is 0.866.
+        const auto counts = static_cast<std::int32_t>(i * (kOneG / 100));
+        const double back = std::sin(std::ldexp(tilt_counts(counts, profile), -29));
+        CHECK(back * kOneG == Approx(counts).margin(0.1));
+    }
+    CHECK(tilt_counts(0, profile) == 0);
+    CHECK(tilt_counts(kOneG / 2, profile) == 281104952);  // pi / 6.
+}
+
+TEST_CASE("with tilt selected on one axis, acceleration and tilt can be read side by side",
+          "[sim][register_machine]") {
+    // Data sheet 5.13: frames carry what OUTPUT_SEL selects; the ACCL registers stay acceleration.
+    Bench bench;
+    bench.send({"FE 01", "80 84"});
+    bench.start_logging();
+    bench.sample(Bench::kTransient);
+    CHECK(bench.sample(1, {{kOneG / 2, kOneG / 2, kOneG}, 0}).substr(21, 35) ==
+          "10 C1 52 38 00 80 00 00 01 00 00 00");
+    CHECK(bench.read("W0:30") == "0080");
+    CHECK(bench.read("W0:3C") == "10C1");
+    CHECK(bench.read("W0:3E") == "5238");
+    CHECK(bench.read("W0:40") == "FFFF");
 }

@@ -2,17 +2,11 @@
 // describes their language.
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
-#include <optional>
-#include <span>
 #include <sstream>
-#include <string>
-#include <vector>
+#include "tests/support/catch.hpp"
 
 #include "protocol/text/text_file.hpp"
-#include "sim/device/device_stream.hpp"
-#include "tests/support/catch.hpp"
 #include "tests/unit/sim/device/machine_script.hpp"
 
 using namespace a351;
@@ -32,29 +26,6 @@ Words words_of(const std::string& line) {
     for (std::string word; in >> word;) words.push_back(word);
     return words;
 }
-
-/// A sensor at rest: 1 g on z.
-class RestingSource final : public signal::SampleSource {
-public:
-    [[nodiscard]] int rate_hz() const noexcept override { return 50; }
-    [[nodiscard]] std::optional<UtcTime> next_instant() const override {
-        return UtcTime(index_ * 20ms);
-    }
-    [[nodiscard]] signal::TimedSample next() override {
-        return {UtcTime(index_ * 20ms), index_++, {{0, 0, kOneG}, -1981}};
-    }
-
-private:
-    std::int64_t index_ = 0;
-};
-
-struct Heard final : LineSink {
-    void send(std::span<const std::byte> sent, UtcTime, const truth::Record*) override {
-        bytes.insert(bytes.end(), sent.begin(), sent.end());
-    }
-    [[nodiscard]] bool is_full() const override { return false; }
-    std::vector<std::byte> bytes;
-};
 
 /// The host's part of a conversation.  Each failed step names its line.
 class Host {
@@ -172,10 +143,13 @@ private:
         }
     }
 
-    RestingSource source_;
+    /// At rest: 1 g on z.
+    GridSource source_{50, [](std::int64_t) {
+                           return signal::SensorSample{{0, 0, kOneG}, -1981};
+                       }};
     RegisterMachine machine_;
     DeviceStream stream_{source_, machine_};
-    Heard heard_;
+    Collected heard_;
     Nanoseconds now_{0};
 };
 
