@@ -32,7 +32,8 @@ private:
 };
 
 /// Returns the inverse of the normal distribution function: the x with Phi(x) = p, for p in (0, 1).
-/// Accuracy: relative error below 1e-15 (random_test.cpp checks 1e-13 against erfc).
+/// Accuracy: relative error below 1e-15 (tests/unit/sim/signal/noise_test.cpp checks 1e-13 against
+/// erfc).
 /// Source: M. J. Wichura, Algorithm AS 241, Appl. Statist. 37(3), 477-484, 1988, PPND16.
 [[nodiscard]] double normal_quantile(double p) noexcept;
 

@@ -4,8 +4,10 @@
 #include "tests/support/catch.hpp"
 
 #include "protocol/text/csv.hpp"
+#include "sim/signal/earth_tide.hpp"
 #include "sim/signal/signal_source.hpp"
 #include "sim/signal/slow_signal.hpp"
+#include "tests/unit/sim/made_up_scenario.hpp"
 
 using namespace a351::sim;
 using namespace a351;
@@ -15,14 +17,19 @@ using namespace std::chrono_literals;
 
 namespace {
 
-/// Returns the mean norm of the samples of each set-up without its first and last minute.
-std::vector<double> mean_norms_mgal(const Scenario& scenario, std::uint64_t seed) {
+struct Norms {
+    std::vector<double> means_mgal, deviations_mgal;
+};
+
+/// Returns the norms of the samples of each set-up without its first and last minute.
+Norms norms_of(const Scenario& scenario, std::uint64_t seed) {
     const wire::DeviceProfile& profile = *wire::find_profile("A351");
     signal::Source source(scenario, profile, seed);
-    std::vector<double> means;
+    Norms norms;
     for (const PlannedSetUp& set_up : source.plan()) {
         constexpr std::chrono::minutes kMargin{1};
-        double sum = 0.0;
+        constexpr double kAbout = 980'000.0;
+        double sum = 0.0, squares = 0.0;
         int count = 0;
         while (*source.next_instant() < set_up.end - kMargin) {
             const TimedSample sample = source.next();
@@ -32,12 +39,14 @@ std::vector<double> mean_norms_mgal(const Scenario& scenario, std::uint64_t seed
                 const double mgal = to_milligal(profile.acceleration(axis)).value();
                 square += mgal * mgal;
             }
-            sum += std::sqrt(square);
+            sum += std::sqrt(square) - kAbout;
+            squares += std::pow(std::sqrt(square) - kAbout, 2);
             ++count;
         }
-        means.push_back(sum / count);
+        norms.means_mgal.push_back(kAbout + sum / count);
+        norms.deviations_mgal.push_back(std::sqrt(squares / count - std::pow(sum / count, 2)));
     }
-    return means;
+    return norms;
 }
 
 double sum_of(const text::CsvTable& table, std::size_t row) {
@@ -58,24 +67,21 @@ TEST_CASE("the terms of the truth add up to the mean norm of the samples", "[sim
     // Everything at once: axis biases, two set-ups, traffic without pause, drift, an open lid; and all
     // this with each second set-up in the other face.
     const bool has_two_faces = GENERATE(false, true);
-    const Scenario scenario = parse_scenario(
-        "base = \"tilted\"\nname = \"x\"\n"
+    const Scenario scenario = changed(
+        "tilted",
         "[schedule]\nsetups = 2\nlead_in_h = 0.5\n" +
             std::string(has_two_faces
                             ? "faces = \"+-\"\n[sensor]\nscale_share = 0.3\nturn_mgal = 5\n"
                             : "") +
             "[slow_noise]\ndrift_linear_mgal_per_h = 5.0\ndrift_walk_mgal_per_sqrt_h = 1.0\n"
             "resonant_mgal = 1.4\nwhite_20s_mgal = 0.4\n"
-            "[vibration]\nvehicles_per_h = 60\nground_mgal = 300\nspike_probability = 0\n"
-            "[[occupation]]\nsite = \"No.5\"\ncentre_utc = \"2017-07-16T00:00:00Z\"\nambient_degc "
-            "= "
-            "25\n"
+            "[vibration]\nvehicles_per_h = 60\nground_mgal = 300\nspike_probability = 0\n" +
+            stay("No.5", "00:00:00") +
             "[[occupation]]\nsite = \"No.12\"\ncentre_utc = \"2017-07-16T00:40:00Z\"\n"
             "ambient_degc = 30\n"
-            "[[lid_open]]\nsite = \"No.12\"\noutside_degc = 35\n",
-        "x.toml");
+            "[[lid_open]]\nsite = \"No.12\"\noutside_degc = 35\n");
     for (const std::uint64_t seed : {1U, 2U, 3U}) {
-        const auto norms = mean_norms_mgal(scenario, seed);
+        const auto norms = norms_of(scenario, seed).means_mgal;
         const auto table = text::CsvTable::parse(
             truth_csv(scenario, plan_survey(scenario, seed), seed), "truth.csv");
         REQUIRE(norms.size() == 4);
@@ -125,14 +131,13 @@ TEST_CASE("each term of the truth agrees with its effect on the norm of the samp
     }));
     const auto truth_and_norms = [](const std::string& more) {
         // A day and hour with a tide above 0.1 mGal: new moon of 23 July 2017, Moon and Sun high.
-        const Scenario scenario = parse_scenario(
-            "base = \"ideal\"\nname = \"x\"\n[schedule]\nlead_in_h = 0.2\njitter_s = 0\n" + more +
-                "[[occupation]]\nsite = \"No.5\"\ncentre_utc = \"2017-07-23T03:00:00Z\"\n"
-                "ambient_degc = 25\n",
-            "x.toml");
+        const Scenario scenario =
+            changed("ideal", "[schedule]\nlead_in_h = 0.2\njitter_s = 0\n" + more +
+                                 "[[occupation]]\nsite = \"No.5\"\nambient_degc = 25\n"
+                                 "centre_utc = \"2017-07-23T03:00:00Z\"\n");
         return std::pair(
             text::CsvTable::parse(truth_csv(scenario, plan_survey(scenario, 1), 1), "truth.csv"),
-            mean_norms_mgal(scenario, 1));
+            norms_of(scenario, 1).means_mgal);
     };
     CAPTURE(column);
     const auto [table, norms] = truth_and_norms(toml);
@@ -142,17 +147,26 @@ TEST_CASE("each term of the truth agrees with its effect on the norm of the samp
     CHECK(table.number(0, "tide_mgal") < -0.1);
 }
 
-TEST_CASE("an ideal day's truth has tide and bias, and no error", "[sim][truth]") {
+TEST_CASE("an ideal day reads gravity, tide and bias, and its truth has no error", "[sim][truth]") {
     const Scenario scenario = load_scenario("ideal");
     const auto plan = plan_survey(scenario, 3);
     const auto ambient = scenario.ambient_knots();
     const std::vector<SetUpTruth> truth = set_up_truth(scenario, plan, 3);
+    const Norms norms = norms_of(scenario, 3);
     REQUIRE(truth.size() == plan.size());
     for (std::size_t k = 0; k < truth.size(); ++k) {
         const SetUpTruth& mean = truth[k];
         const auto term = [&mean](Term t) { return mean.terms_mgal[static_cast<std::size_t>(t)]; };
         CHECK(term(Term::bias) == Approx(1838.0));
-        CHECK(std::abs(term(Term::tide)) < 0.3);
+        const text::Site& site = plan[k].site;
+        const UtcTime middle = plan[k].start + (plan[k].end - plan[k].start) / 2;
+        const MilliGal tide = earth_tide(site.latitude, site.longitude, site.altitude, middle,
+                                         scenario.tide.gravimetric_factor);
+        CHECK(term(Term::tide) == Approx(tide.value()).margin(0.001));
+        // 0.1 mGal of dither over at least 21 000 samples, and 0.058 mGal counts: 1 uGal.
+        CHECK(norms.means_mgal[k] ==
+              Approx(site.gravity->value() + term(Term::tide) + 1838.0).epsilon(0.0).margin(0.004));
+        CHECK(norms.deviations_mgal[k] < 0.15);
         double errors_mgal = mean.burst_mgal;
         for (std::size_t i = static_cast<std::size_t>(Term::crystal_static); i < kTermCount; ++i) {
             errors_mgal += std::abs(mean.terms_mgal[i]);
@@ -188,10 +202,9 @@ TEST_CASE("tilting by two degrees to each side shows the axis bias", "[sim][trut
 
 TEST_CASE("bias and scale flicker by themselves, and together as much as the scenario says",
           "[sim][truth]") {
-    const Scenario scenario = parse_scenario(
-        "base = \"ideal\"\nname = \"x\"\n[schedule]\nfaces = \"+\"\n[sensor]\nscale_share = 0.4\n"
-        "[slow_noise]\nflicker_mgal = 1.2\n",
-        "x.toml");
+    const Scenario scenario = changed("ideal",
+                                      "[schedule]\nfaces = \"+\"\n[sensor]\nscale_share = 0.4\n"
+                                      "[slow_noise]\nflicker_mgal = 1.2\n");
     double product = 0.0, of_bias = 0.0, of_scale = 0.0;
     int count = 0;
     for (std::uint64_t seed = 1; seed <= 60; ++seed) {

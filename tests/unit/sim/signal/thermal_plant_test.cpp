@@ -11,8 +11,8 @@
 #include "protocol/core/input_error.hpp"
 #include "sim/plant/ovens.hpp"
 #include "sim/plant/temperature_error.hpp"
-#include "sim/scenario/scenario.hpp"
 #include "sim/signal/signal_source.hpp"
+#include "tests/unit/sim/made_up_scenario.hpp"
 
 using namespace a351::sim;
 using namespace a351;
@@ -188,8 +188,7 @@ TEST_CASE("an on/off controller cycles faster and with a larger swing", "[sim][t
 
 TEST_CASE("the scenario selects the kind of controller", "[sim][thermal_plant]") {
     const auto kind_of = [](const std::string& line) {
-        return parse_scenario("base = \"tsukuba\"\nname = \"own\"\n[oven]\n" + line, "own.toml")
-            .oven.controller;
+        return changed("tsukuba", "[oven]\n" + line).oven.controller;
     };
     CHECK(kind_of("") == ControllerKind::pi);
     CHECK(kind_of("controller = \"onoff\"\n") == ControllerKind::on_off);
@@ -273,17 +272,13 @@ TEST_CASE("the temperature error has the gain and phase of its transfer function
     }
 }
 
-TEST_CASE("a constant temperature difference gives the static slope", "[sim][temperature_error]") {
+TEST_CASE("a constant temperature difference gives the static slope, and the warm-up error decays",
+          "[sim][temperature_error]") {
     const TemperatureErrorParameters parameters = load_scenario("tsukuba").error;
     TemperatureError cold(parameters, DegC(42.5), 1.0);
     TemperatureError warm(parameters, DegC(43.5), 1.0);
     const MilliGal difference = warm.next(DegC(43.5), 1e9) - cold.next(DegC(42.5), 1e9);
     CHECK(difference.value() == Approx(-32.0));
-}
-
-TEST_CASE("the warm-up error decays from power-on", "[sim][temperature_error]") {
-    const TemperatureErrorParameters parameters = load_scenario("tsukuba").error;
-    TemperatureError error(parameters, DegC(42.5), 1.0);
-    CHECK(error.next(DegC(42.5), 0.0).value() == Approx(36.0));
-    CHECK(error.next(DegC(42.5), 2.5 * 3600.0).value() == Approx(36.0 / std::numbers::e));
+    CHECK(cold.next(DegC(42.5), 0.0).value() == Approx(36.0));
+    CHECK(cold.next(DegC(42.5), 2.5 * 3600.0).value() == Approx(36.0 / std::numbers::e));
 }

@@ -1,9 +1,9 @@
 #include "sim/survey/direct_survey.hpp"
 
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <csignal>
 #include <fstream>
@@ -18,6 +18,8 @@
 #include "protocol/text/csv.hpp"
 #include "protocol/wire/shipped_profiles.hpp"
 #include "sim/scenario/survey_plan.hpp"
+#include "tests/support/temporary_directory.hpp"
+#include "tests/unit/sim/made_up_scenario.hpp"
 #include "tests/unit/sim/truth_reader.hpp"
 
 using namespace a351;
@@ -28,53 +30,46 @@ using namespace a351::sim::truth;
 
 namespace {
 
-/// A temporary data root, which is removed at the end.
-class Root {
-public:
-    Root()
-        : path_(std::filesystem::temp_directory_path() /
-                ("a351_direct_" + std::to_string(::getpid()))) {
-        std::filesystem::remove_all(path_);
-    }
-    ~Root() { std::filesystem::remove_all(path_); }
-    Root(const Root&) = delete;
-    Root& operator=(const Root&) = delete;
-    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+/// A day, written to a temporary data root.
+struct Written {
+    explicit Written(const Scenario& scenario, const char* profile = "A351", std::uint64_t seed = 1)
+        : day(write_survey(scenario, *wire::find_profile(profile), seed, directory.path())) {}
 
-private:
-    std::filesystem::path path_;
+    [[nodiscard]] std::filesystem::path file(const char* name) const {
+        return directory.path() / name;
+    }
+    [[nodiscard]] journal::Header header() const {
+        journal::Reader reader(journal::segment_files(file("journal")).front());
+        return std::get<journal::Header>(*reader.next());
+    }
+
+    test::TemporaryDirectory directory;
+    DirectSurvey day;
 };
 
 /// Returns a scenario with two stations within half an hour.
-Scenario brief_day(const std::string& name = "brief", const std::string& date = "2017-07-16",
-                   const std::string& more = "") {
-    return parse_scenario("base = \"ideal\"\nname = \"" + name +
-                              "\"\n[schedule]\nlead_in_h = 0.2\nlead_out_min = 8\n"
-                              "length_s = 300\nshortest_s = 300\njitter_s = 20\n"
-                              "[[occupation]]\nsite = \"No.0\"\ncentre_utc = \"" +
-                              date +
-                              "T01:00:00Z\"\nambient_degc = 25\n"
-                              "[[occupation]]\nsite = \"No.1\"\ncentre_utc = \"" +
-                              date + "T01:10:00Z\"\nambient_degc = 25\n" + more,
-                          "brief.toml");
+Scenario brief_day(const std::string& name = "brief", const std::string& more = "",
+                   const std::string& date = "2017-07-16") {
+    const std::string text = "base = \"ideal\"\nname = \"" + name +
+                             "\"\n[schedule]\nlead_in_h = 0.2\nlead_out_min = 8\n"
+                             "length_s = 300\nshortest_s = 300\njitter_s = 20\n" +
+                             stay("No.0", "01:00:00", "", date) +
+                             stay("No.1", "01:10:00", "", date) + more;
+    return parse_scenario(text, "brief.toml");
 }
 
 }  // namespace
 
 TEST_CASE("a day written to a data root reads back as the truth", "[sim][direct_survey]") {
-    const Root directory;
-    const auto& root = directory.path();
-    const Scenario scenario = parse_scenario(
-        "base = \"tsukuba\"\nname = \"short\"\n[schedule]\nlead_in_h = 0.2\nlead_out_min = 8\n"
-        "[[occupation]]\nsite = \"No.0\"\ncentre_utc = \"2017-07-16T23:55:00Z\"\nambient_degc = "
-        "25\n",
-        "short.toml");
-    const DirectSurvey written = write_survey(scenario, *wire::find_profile("A351"), 1, root);
-    const auto truth = read_truth(root / "truth.bin");
-    REQUIRE(written.frames == static_cast<std::int64_t>(truth.size()));
+    const Scenario scenario =
+        changed("tsukuba", "[schedule]\nlead_in_h = 0.2\nlead_out_min = 10\nsetups = 2\n" +
+                               stay("No.0", "23:55:00"));
+    const Written written(scenario);
+    const auto truth = read_truth(written.file("truth.bin"));
+    REQUIRE(written.day.frames == static_cast<std::int64_t>(truth.size()));
     REQUIRE(truth.size() > 50 * 60 * 15);
 
-    const auto channel = archive::read_channel(root / "archive", {}, "BNZ", scenario.start(),
+    const auto channel = archive::read_channel(written.file("archive"), {}, "BNZ", scenario.start(),
                                                scenario.end() + std::chrono::hours(1));
     REQUIRE(channel.segments.size() == 1);
     REQUIRE(channel.segments[0].counts.size() == truth.size());
@@ -85,21 +80,27 @@ TEST_CASE("a day written to a data root reads back as the truth", "[sim][direct_
         REQUIRE(std::abs(seconds_between(truth[i].utc, channel.segments[0].time_of(i))) < 1e-4);
     }
 
-    const auto occupations = events::occupations_of(events::read_events(root / "events").events);
+    const auto occupations =
+        events::occupations_of(events::read_events(written.file("events")).events);
     const auto plan = plan_survey(scenario, 1);
+    REQUIRE(plan.size() == 2);
     REQUIRE(occupations.size() == 1);
     CHECK(occupations[0].site == "No.0");
-    REQUIRE(occupations[0].set_ups.size() == 1);
-    CHECK(std::abs(seconds_between(plan[0].start, occupations[0].set_ups[0].start)) <= 0.02);
-    CHECK(std::abs(seconds_between(plan[0].end, occupations[0].set_ups[0].end)) <= 0.02);
-    CHECK(station::read_station_xml(root / "metadata" / "station.xml").channels.size() >= 4);
-    CHECK_FALSE(std::filesystem::exists(root / "survey.toml"));  // One site: nothing to survey.
-    CHECK_FALSE(std::filesystem::exists(root / "partial"));
+    REQUIRE(occupations[0].set_ups.size() == 2);
+    for (std::size_t i = 0; i < 2; ++i) {
+        CHECK(std::abs(seconds_between(plan[i].start, occupations[0].set_ups[i].start)) <= 0.02);
+        CHECK(std::abs(seconds_between(plan[i].end, occupations[0].set_ups[i].end)) <= 0.02);
+    }
+    CHECK(text::read_csv(written.file("schedule.csv")).row_count() == 2);
+    CHECK(text::read_csv(written.file("truth.csv")).row_count() == 2);
+    CHECK(station::read_station_xml(written.file("metadata") / "station.xml").channels.size() >= 4);
+    CHECK_FALSE(std::filesystem::exists(written.file("survey.toml")));  // One site: no survey.
+    CHECK_FALSE(std::filesystem::exists(written.file("partial")));
 }
 
 TEST_CASE("a day is not written to a directory that has any part of another",
           "[sim][direct_survey]") {
-    const Root directory;
+    const test::TemporaryDirectory directory;
     for (const char* name : {"journal", "archive", "events", "metadata", "truth.bin", "sites.csv",
                              "schedule.csv", "truth.csv", "survey.toml", "partial"}) {
         std::filesystem::create_directories(directory.path() / name);
@@ -117,7 +118,7 @@ TEST_CASE("a day is not written to a directory that has any part of another",
 }
 
 TEST_CASE("a day that cannot be written completely leaves no files", "[sim][direct_survey]") {
-    const Root directory;
+    const test::TemporaryDirectory directory;
     rlimit limit{};
     REQUIRE(::getrlimit(RLIMIT_FSIZE, &limit) == 0);
     const rlimit small{1'000'000, limit.rlim_max};
@@ -138,7 +139,7 @@ TEST_CASE("a day that cannot be written completely leaves no files", "[sim][dire
 
 TEST_CASE("a day has the filter of the profile by its code, and is refused without it",
           "[sim][direct_survey]") {
-    const Root directory;
+    const test::TemporaryDirectory directory;
     const auto shipped =
         std::ranges::find(wire::shipped_profiles(), "A351", &wire::ShippedProfile::name);
     const auto written = [&](const std::string& filter) {
@@ -160,19 +161,10 @@ TEST_CASE("a day has the filter of the profile by its code, and is refused witho
 
 TEST_CASE("the session id of a day depends on its scenario, start, profile and seed",
           "[sim][direct_survey]") {
-    const auto header_of = [](const Scenario& scenario, const char* profile, std::uint64_t seed) {
-        const Root directory;
-        static_cast<void>(
-            write_survey(scenario, *wire::find_profile(profile), seed, directory.path()));
-        journal::Reader reader(journal::segment_files(directory.path() / "journal").front());
-        return std::get<journal::Header>(*reader.next());
-    };
-    std::vector<journal::Header> headers;
-    headers.push_back(header_of(brief_day(), "A351", 1));
-    headers.push_back(header_of(brief_day("another"), "A351", 1));
-    headers.push_back(header_of(brief_day("brief", "2017-07-17"), "A351", 1));
-    headers.push_back(header_of(brief_day(), "A352AD10", 1));
-    headers.push_back(header_of(brief_day(), "A351", 2));
+    const std::array headers{Written(brief_day()).header(), Written(brief_day("another")).header(),
+                             Written(brief_day("brief", "", "2017-07-17")).header(),
+                             Written(brief_day(), "A352AD10").header(),
+                             Written(brief_day(), "A351", 2).header()};
     for (std::size_t i = 0; i < headers.size(); ++i) {
         for (std::size_t j = 0; j < i; ++j) {
             CAPTURE(i, j);
@@ -180,18 +172,17 @@ TEST_CASE("the session id of a day depends on its scenario, start, profile and s
             CHECK(headers[i].boot_id != headers[j].boot_id);
         }
     }
-    CHECK(header_of(brief_day(), "A351", 1).session == headers.front().session);
+    CHECK(Written(brief_day()).header().session == headers.front().session);
 }
 
 TEST_CASE("events and tables are in true time, even if the clock of the sensor is wrong",
           "[sim][direct_survey]") {
-    const Root directory;
-    const Scenario scenario = brief_day("brief", "2017-07-16", "[clock]\nerror_ppm = 100\n");
-    static_cast<void>(write_survey(scenario, *wire::find_profile("A351"), 1, directory.path()));
-    const auto truth = read_truth(directory.path() / "truth.bin");
-    const auto events = events::read_events(directory.path() / "events").events;
-    const auto schedule = text::read_csv(directory.path() / "schedule.csv");
-    const auto rows = text::read_csv(directory.path() / "truth.csv");
+    const Scenario scenario = brief_day("brief", "[clock]\nerror_ppm = 100\n");
+    const Written written(scenario);
+    const auto truth = read_truth(written.file("truth.bin"));
+    const auto events = events::read_events(written.file("events")).events;
+    const auto schedule = text::read_csv(written.file("schedule.csv"));
+    const auto rows = text::read_csv(written.file("truth.csv"));
     const auto plan = plan_survey(scenario, 1);
     REQUIRE(events.size() == 2 * plan.size());
     for (std::size_t i = 0; i < events.size(); ++i) {
@@ -212,32 +203,8 @@ TEST_CASE("events and tables are in true time, even if the clock of the sensor i
     CHECK(1e-4 * seconds_between(scenario.start(), scenario.end()) > 0.1);
 }
 
-TEST_CASE("further set-ups are in the event log and in the tables", "[sim][direct_survey]") {
-    const Root directory;
-    const Scenario scenario = parse_scenario(
-        "base = \"ideal\"\nname = \"short\"\n"
-        "[schedule]\nlead_in_h = 0.2\nlead_out_min = 10\nsetups = 2\n"
-        "[[occupation]]\nsite = \"No.0\"\ncentre_utc = \"2017-07-16T01:00:00Z\"\nambient_degc = "
-        "25\n",
-        "short.toml");
-    static_cast<void>(write_survey(scenario, *wire::find_profile("A351"), 1, directory.path()));
-    const auto occupations =
-        events::occupations_of(events::read_events(directory.path() / "events").events);
-    const auto plan = plan_survey(scenario, 1);
-    REQUIRE(occupations.size() == 1);
-    REQUIRE(occupations[0].set_ups.size() == 2);
-    REQUIRE(plan.size() == 2);
-    for (std::size_t i = 0; i < 2; ++i) {
-        CHECK(std::abs(seconds_between(plan[i].start, occupations[0].set_ups[i].start)) <= 0.02);
-        CHECK(std::abs(seconds_between(plan[i].end, occupations[0].set_ups[i].end)) <= 0.02);
-    }
-    CHECK(text::read_csv(directory.path() / "schedule.csv").row_count() == 2);
-    CHECK(text::read_csv(directory.path() / "truth.csv").row_count() == 2);
-}
-
 TEST_CASE("a day with two ovens has the channels of both, and a term of its truth",
           "[sim][direct_survey]") {
-    const Root root;
     const std::string outer =
         "[outer_oven]\nheater_capacity_j_per_k = 1500\nbody_capacity_j_per_k = 400\n"
         "heater_body_k_per_w = 1\nheater_ambient_k_per_w = 3\nbody_ambient_k_per_w = 20\n"
@@ -245,13 +212,13 @@ TEST_CASE("a day with two ovens has the channels of both, and a term of its trut
         "set_point_degc = 38\nresolution_degc = 0.1\nproportional_per_degc = 0\n"
         "integral_per_degc_s = 0\ncontroller = \"onoff\"\nrun_in_h = 2\n"
         "reading_mgal_per_degc = 10\nreading_tau_s = 600\n";
-    const Scenario day = brief_day("two-ovens", "2017-07-16", outer);
-    write_survey(day, *wire::find_profile("A351"), 1, root.path());
-    const auto metadata = station::read_station_xml(root.path() / "metadata" / "station.xml");
+    const Scenario day = brief_day("two-ovens", outer);
+    const Written written(day);
+    const auto metadata = station::read_station_xml(written.file("metadata") / "station.xml");
     for (const char* code : {"LK2", "LK3", "LYH", "LK4", "LK5", "LYO"}) {
         CAPTURE(code);
         CHECK(std::ranges::count(metadata.channels, code, &station::ChannelScale::code) == 1);
-        const auto data = archive::read_channel(root.path() / "archive", metadata.codes, code,
+        const auto data = archive::read_channel(written.file("archive"), metadata.codes, code,
                                                 day.start(), day.end());
         std::size_t samples = 0;
         for (const auto& segment : data.segments) {
@@ -263,31 +230,25 @@ TEST_CASE("a day with two ovens has the channels of both, and a term of its trut
         }
         CHECK(static_cast<double>(samples) > seconds_between(day.start(), day.end()) - 5.0);
     }
-    CHECK(text::read_csv(root.path() / "truth.csv").has_column("outer_oven_mgal"));
+    CHECK(text::read_csv(written.file("truth.csv")).has_column("outer_oven_mgal"));
 }
 
 TEST_CASE("a record at one point has an archive, one site and no survey", "[sim][direct_survey]") {
-    const Root directory;
-    const Scenario scenario = parse_scenario(
-        "base = \"indoor\"\nname = \"short\"\n[schedule]\nduration_h = 0.1\n"
-        "[clock]\nerror_ppm = 100\n",
-        "short.toml");
-    const DirectSurvey written =
-        write_survey(scenario, *wire::find_profile("A351"), 1, directory.path());
-    CHECK(written.frames ==
-          static_cast<std::int64_t>(read_truth(directory.path() / "truth.bin").size()));
-    CHECK(written.frames > 50 * 359);  // The first samples pass before the filter has settled.
-    CHECK(text::read_csv(directory.path() / "sites.csv").row_count() == 1);
-    CHECK(text::read_csv(directory.path() / "schedule.csv").row_count() == 0);
-    CHECK(text::read_csv(directory.path() / "truth.csv").row_count() == 0);
-    CHECK_FALSE(std::filesystem::exists(directory.path() / "survey.toml"));
+    const Scenario scenario =
+        changed("indoor", "[schedule]\nduration_h = 0.1\n[clock]\nerror_ppm = 100\n");
+    const Written written(scenario);
+    const auto truth = read_truth(written.file("truth.bin"));
+    CHECK(written.day.frames == static_cast<std::int64_t>(truth.size()));
+    CHECK(written.day.frames > 50 * 359);  // The first samples pass before the filter has settled.
+    CHECK(text::read_csv(written.file("sites.csv")).row_count() == 1);
+    CHECK(text::read_csv(written.file("schedule.csv")).row_count() == 0);
+    CHECK(text::read_csv(written.file("truth.csv")).row_count() == 0);
+    CHECK_FALSE(std::filesystem::exists(written.file("survey.toml")));
     // The archive's times follow the sensor's own clock, here 100 ppm fast.
-    const auto truth = read_truth(directory.path() / "truth.bin");
     CHECK(seconds_between(scenario.start(), truth.back().utc) ==
           Approx(359.98 * (1.0 - 1e-4)).margin(1e-4));
-    const auto channel =
-        archive::read_channel(directory.path() / "archive", {}, "BNZ", scenario.start(),
-                              scenario.end() + std::chrono::hours(1));
+    const auto channel = archive::read_channel(written.file("archive"), {}, "BNZ", scenario.start(),
+                                               scenario.end() + std::chrono::hours(1));
     REQUIRE(channel.segments.size() == 1);
     REQUIRE(channel.segments[0].counts.size() == truth.size());
     CHECK(std::abs(seconds_between(truth.back().utc,
@@ -295,10 +256,10 @@ TEST_CASE("a record at one point has an archive, one site and no survey", "[sim]
 }
 
 TEST_CASE("a step and gross placements are planned as the scenario asks", "[sim][plan]") {
-    const Scenario tsukuba = parse_scenario(
-        "base = \"tsukuba\"\nname = \"x\"\n[slow_noise]\ntransport_step_mgal = 8\n"
-        "placement_gross_share = 0.25\nplacement_gross_factor = 100\n",
-        "x.toml");
+    const Scenario tsukuba =
+        changed("tsukuba",
+                "[slow_noise]\ntransport_step_mgal = 8\n"
+                "placement_gross_share = 0.25\nplacement_gross_factor = 100\n");
     int gross = 0;
     std::set<std::size_t> places;
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
