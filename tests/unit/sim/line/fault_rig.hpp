@@ -3,16 +3,12 @@
 /// A device with a fault script, and a host that receives everything.
 
 #include <algorithm>
-#include <chrono>
 #include <map>
-#include <string>
-#include <vector>
 #include "tests/support/catch.hpp"
 
 #include "protocol/core/input_error.hpp"
 #include "protocol/timing/sample_index.hpp"
 #include "protocol/wire/burst_decoder.hpp"
-#include "sim/device/device_stream.hpp"
 #include "sim/line/fault_injector.hpp"
 #include "sim/noise/random.hpp"
 #include "tests/unit/sim/device/machine_script.hpp"
@@ -21,26 +17,6 @@ namespace a351::sim::line {
 
 using namespace std::chrono_literals;
 using Kind = timing::Placement::Kind;
-
-/// An endless source of noise.
-class NoiseSource final : public signal::SampleSource {
-public:
-    [[nodiscard]] int rate_hz() const noexcept override { return 50; }
-    [[nodiscard]] std::optional<UtcTime> next_instant() const override {
-        return UtcTime(index_ * 20ms);
-    }
-    [[nodiscard]] signal::TimedSample next() override {
-        signal::TimedSample sample{*next_instant(), index_++, {}};
-        for (std::int32_t& axis : sample.values.axes_counts) axis = draw();
-        sample.values.temperature_counts = draw();
-        return sample;
-    }
-
-private:
-    std::int32_t draw() { return static_cast<std::int32_t>(noise_.bits() >> 44U); }
-    std::int64_t index_ = 0;
-    noise::RandomStream noise_{1, "test"};
-};
 
 /// Result of decoding the bytes as a host does.
 struct Decoded {
@@ -107,12 +83,35 @@ struct Rig {
         return values;
     }
 
+    /// Has the device take commands as from the host's line.
+    void receive(std::string_view hex) {
+        stream.receive(device::bytes_of(hex), {now, bench.now}, faults);
+    }
+
+    /// Returns how often a kind of fault has been applied.
+    [[nodiscard]] std::int64_t made(FaultKind kind) const {
+        return faults.report().by_kind[static_cast<std::size_t>(kind)];
+    }
+
+    /// Plugs the device in again after the hang-up that is due.
+    void end_hang_up() {
+        const auto hang_up = faults.take_hang_up();
+        REQUIRE(hang_up);
+        faults.end_hang_up(*hang_up, {now, bench.now});
+    }
+
     [[nodiscard]] std::int64_t count(truth::Fate fate) const {
         return std::ranges::count(truth, fate, &truth::Record::fate);
     }
 
     FaultRules rules{*wire::find_profile("A352AD10"), 1.0, {"oven_silence"}};
-    NoiseSource source;
+    noise::RandomStream noise{1, "test"};
+    device::GridSource source{50, [this](std::int64_t) {
+                                  const auto draw = [this] {
+                                      return static_cast<std::int32_t>(noise.bits() >> 44U);
+                                  };
+                                  return signal::SensorSample{{draw(), draw(), draw()}, draw()};
+                              }};
     device::Bench bench;
     device::DeviceStream stream{source, bench.machine};
     std::vector<truth::Record> truth;

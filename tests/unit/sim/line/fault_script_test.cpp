@@ -42,8 +42,11 @@ TEST_CASE("every kind of fault can be given in a script and in words", "[sim][fa
     }
 }
 
-TEST_CASE("the time of a fault is given in seconds, UTC or frames", "[sim][fault_script]") {
+TEST_CASE("times in seconds, UTC or frames, and rates and seed of random faults are read",
+          "[sim][fault_script]") {
     const FaultScript script = parse(
+        "answers_cut_frames = true\n[random]\nseed = 9\nflip_bit_per_h = 12.5\n"
+        "oven_silence_per_h = 1\n"
         "[[fault]]\nkind = \"reset\"\nat_s = 2.5\n"
         "[[fault]]\nkind = \"reset\"\nat_utc = \"2017-07-16T00:00:03Z\"\n"
         "[[fault]]\nkind = \"reset\"\nat_frame = 7\n");
@@ -51,12 +54,6 @@ TEST_CASE("the time of a fault is given in seconds, UTC or frames", "[sim][fault
     CHECK(script.planned[1].at == kStart + 3s);
     CHECK(script.planned[2].at_frame == 7);
     CHECK_FALSE(script.planned[2].at);
-}
-
-TEST_CASE("rates and seed of random faults are read", "[sim][fault_script]") {
-    const FaultScript script = parse(
-        "answers_cut_frames = true\n[random]\nseed = 9\nflip_bit_per_h = 12.5\n"
-        "oven_silence_per_h = 1\n");
     CHECK(script.seed == 9);
     CHECK(script.answers_cut_frames);
     REQUIRE(script.random.size() == 2);

@@ -160,34 +160,12 @@ TEST_CASE("nothing is unread only when the host has read all, also right after a
     CHECK(left == 0);
 }
 
-TEST_CASE("a host configures the device through the terminal and reads its frames",
+TEST_CASE("a host configures the device, does not read for a while, and loses no frame",
           "[sim][sensor_port]") {
-    Served served("round_trip", 200.0);
+    Served served("stall", 1000.0);
     Host host(served.link);
     host.send("FE 01 0D 6A 00 0D");
     CHECK(hex_of(host.receive(4)) == "6A 33 41 0D");
-    host.send(kStartLogging);
-
-    constexpr std::size_t kFrames = 2000;
-    const auto bytes = host.receive(kFrames * 24);
-    REQUIRE(bytes.size() == kFrames * 24);
-    served.end();
-
-    wire::BurstDecoder decoder(wire::BurstLayout::recommended(), 80);
-    std::span<const std::byte> input(bytes);
-    std::size_t index = 0;
-    while (const auto event = decoder.next(input)) {
-        REQUIRE(std::holds_alternative<wire::BurstFrame>(*event));
-        REQUIRE(index < served.truth.size());
-        REQUIRE(std::get<wire::BurstFrame>(*event).values() == served.truth[index].values);
-        ++index;
-    }
-    CHECK(index == kFrames);
-}
-
-TEST_CASE("a host that does not read for a while loses nothing", "[sim][sensor_port]") {
-    Served served("stall", 1000.0);
-    Host host(served.link);
     host.send(kStartLogging);
     // Half a second is 25 000 frames, 600 kB: far more than the terminal holds.
     std::this_thread::sleep_for(500ms);
@@ -197,21 +175,29 @@ TEST_CASE("a host that does not read for a while loses nothing", "[sim][sensor_p
     REQUIRE(bytes.size() == kFrames * 24);
     wire::BurstDecoder decoder(wire::BurstLayout::recommended(), 80);
     std::span<const std::byte> input(bytes);
-    std::uint16_t expected = 80;
     std::size_t frames = 0;
     while (const auto event = decoder.next(input)) {
         REQUIRE(std::holds_alternative<wire::BurstFrame>(*event));
-        REQUIRE(std::get<wire::BurstFrame>(*event).values().count == expected);
-        expected = static_cast<std::uint16_t>(expected + 80);
+        const wire::BurstValues& values = std::get<wire::BurstFrame>(*event).values();
+        REQUIRE(values == served.truth.at(frames).values);
+        REQUIRE(values.count == static_cast<std::uint16_t>(80 * (frames + 1)));
         ++frames;
     }
     CHECK(frames == kFrames);
     CHECK(served.line.report().largest_lateness > 100s);
 }
 
-TEST_CASE("the terminal is raw: every byte value passes both ways", "[sim][pty]") {
+TEST_CASE("the terminal is raw: every byte value passes both ways, at each visit of a host",
+          "[sim][pty]") {
     const auto link = link_path("raw");
     Pty pty(link);
+    for (int visit = 0; visit < 2; ++visit) {
+        Host brief(link);
+        brief.send("0D");
+        wait_for(pty);
+        CHECK(pty.read().size() == 1);
+    }
+    CHECK(pty.read().empty());
     Host host(link);
     std::vector<std::byte> all;
     for (int value = 0; value < 256; ++value) all.push_back(static_cast<std::byte>(value));
@@ -228,19 +214,8 @@ TEST_CASE("the terminal is raw: every byte value passes both ways", "[sim][pty]"
     CHECK(got == all);
 }
 
-TEST_CASE("a host can open and close the terminal repeatedly", "[sim][pty]") {
-    const auto link = link_path("come_and_go");
-    Pty pty(link);
-    for (int visit = 0; visit < 3; ++visit) {
-        Host host(link);
-        host.send("0D");
-        wait_for(pty);
-        CHECK(pty.read().size() == 1);
-    }
-    CHECK(pty.read().empty());
-}
-
-TEST_CASE("the link is removed with the device and replaces a stale one", "[sim][pty]") {
+TEST_CASE("the link replaces a stale one and is removed with the device, unless it is another's",
+          "[sim][pty]") {
     const auto link = link_path("link");
     std::filesystem::create_symlink("/dev/pts/987654", link);
     {
@@ -248,6 +223,13 @@ TEST_CASE("the link is removed with the device and replaces a stale one", "[sim]
         CHECK(std::filesystem::read_symlink(link) == pty.slave_path());
     }
     CHECK_FALSE(std::filesystem::exists(std::filesystem::symlink_status(link)));
+    {
+        const Pty pty(link);
+        std::filesystem::remove(link);
+        std::filesystem::create_symlink("/nonexistent", link);
+    }
+    CHECK(std::filesystem::read_symlink(link) == "/nonexistent");
+    std::filesystem::remove(link);
 }
 
 TEST_CASE("a path that belongs to somebody else is refused and left in place", "[sim][pty]") {
@@ -271,17 +253,6 @@ TEST_CASE("a path that belongs to somebody else is refused and left in place", "
     std::filesystem::create_symlink(link, link);
     CHECK_THROWS_AS(Pty(link / "sensor"), InputError);
     refused();
-}
-
-TEST_CASE("a link that somebody else has put in place is not removed", "[sim][pty]") {
-    const auto link = link_path("replaced");
-    {
-        const Pty pty(link);
-        std::filesystem::remove(link);
-        std::filesystem::create_symlink("/nonexistent", link);
-    }
-    CHECK(std::filesystem::read_symlink(link) == "/nonexistent");
-    std::filesystem::remove(link);
 }
 
 TEST_CASE("a terminal that hangs up comes back under another name", "[sim][pty]") {
