@@ -65,22 +65,6 @@ TEST_CASE("frames are sent when they are due, decode to the truth, and COUNT adv
     }
 }
 
-TEST_CASE("a full line delays the device and does not change what it sends",
-          "[sim][device_stream]") {
-    Rig blocked, flowing;
-    blocked.bench.start_logging();
-    flowing.bench.start_logging();
-    const UtcTime end = blocked.scenario.start() + 120s;
-    for (UtcTime now = blocked.scenario.start(); now <= end; now += 1s) flowing.advance_to(now);
-    for (blocked.line.most = 10; blocked.line.bytes.size() < flowing.line.bytes.size();
-         blocked.line.most += 1000) {
-        blocked.advance_to(end);
-        REQUIRE(blocked.line.bytes.size() < blocked.line.most + 24);
-    }
-    CHECK(blocked.line.bytes == flowing.line.bytes);
-    CHECK(blocked.line.times == flowing.line.times);
-}
-
 TEST_CASE("a device far behind catches up in pieces and answers commands between them",
           "[sim][device_stream]") {
     Rig rig;

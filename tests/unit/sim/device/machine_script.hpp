@@ -134,7 +134,7 @@ private:
     std::int64_t index_ = 0;
 };
 
-/// Everything the device sends; full at `most` bytes.
+/// Everything the device sends.
 struct Collected final : LineSink {
     void send(std::span<const std::byte> sent, UtcTime leaves,
               const truth::Record* frame) override {
@@ -143,9 +143,8 @@ struct Collected final : LineSink {
         truth.push_back(*frame);
         times.push_back(leaves);
     }
-    [[nodiscard]] bool is_full() const override { return bytes.size() >= most; }
+    [[nodiscard]] bool is_full() const override { return false; }
 
-    std::size_t most = SIZE_MAX;
     std::vector<std::byte> bytes;
     std::vector<truth::Record> truth;
     std::vector<UtcTime> times;
