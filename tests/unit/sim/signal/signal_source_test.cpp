@@ -1,5 +1,6 @@
 #include "sim/signal/signal_source.hpp"
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include "tests/support/catch.hpp"
@@ -48,6 +49,32 @@ TEST_CASE("samples lie on a grid of 20 ms from the scenario's start", "[sim][sig
     CHECK(source.next().instant == scenario.start());
     CHECK(*source.next_instant() - scenario.start() == std::chrono::milliseconds(20));
     CHECK(static_cast<double>(source.sample_count()) / 50.0 / 3600.0 == Approx(13.2).margin(0.01));
+}
+
+TEST_CASE("a spike is on one axis, of either sign, and within the range of the scenario",
+          "[sim][signal_source]") {
+    const Scenario calm = load_scenario("ideal");
+    const Scenario struck =
+        changed("ideal", "[vibration]\nspike_probability = 1.0\nspike_gal = [0.1, 1.0]\n");
+    signal::Source expected(calm, a351_profile(), 1), spiked(struck, a351_profile(), 1);
+    std::array<std::array<int, 2>, 3> seen{};
+    for (int i = 0; i < 600; ++i) {
+        const SensorSample without = expected.next().values, sample = spiked.next().values;
+        int hit = 0;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const std::int32_t counts = sample.axes_counts[axis] - without.axes_counts[axis];
+            if (counts == 0) continue;
+            const double mgal = std::abs(to_milligal(a351_profile().acceleration(counts)).value());
+            CHECK(mgal == Approx(550.0).margin(450.1));  // With half a count.
+            ++seen[axis][counts > 0 ? 1 : 0];
+            ++hit;
+        }
+        REQUIRE(hit == 1);
+    }
+    for (const auto& [down, up] : seen) {  // 100 each, less five sigma.
+        CHECK(down > 53);
+        CHECK(up > 53);
+    }
 }
 
 TEST_CASE("counts are limited to the range of their type", "[sim][signal_source]") {
