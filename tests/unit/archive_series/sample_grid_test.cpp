@@ -18,9 +18,8 @@ archive::Segment segment(UtcTime start, double rate_hz, std::size_t count, std::
     result.rate_hz = 50.0;
     for (std::size_t i = 0; i < count; ++i) {
         result.counts.push_back(first + static_cast<std::int32_t>(i));
-        if (i % 500 == 0) {
+        if (i % 500 == 0)
             result.anchors.push_back({i, start + from_seconds(static_cast<double>(i) / rate_hz)});
-        }
     }
     return result;
 }

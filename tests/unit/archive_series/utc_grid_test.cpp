@@ -19,9 +19,8 @@ archive::Segment sine(double frequency_hz, double ppm, double offset = 0.0) {
     const double true_rate_hz = 50.0 * (1.0 + 1e-6 * ppm);
     for (int i = 0; i < 6000; ++i) {
         const double t = i / true_rate_hz;
-        if (i % 500 == 0) {
+        if (i % 500 == 0)
             segment.anchors.push_back({static_cast<std::size_t>(i), kStart + from_seconds(t)});
-        }
         segment.counts.push_back(static_cast<std::int32_t>(std::lround(
             offset + kAmplitude * std::sin(2.0 * std::numbers::pi * frequency_hz * t))));
     }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include "tests/support/catch.hpp"
 
-#include "protocol/core/input_error.hpp"
 #include "protocol/wire/shipped_profiles.hpp"
 #include "tests/unit/archive/data_root.hpp"
 

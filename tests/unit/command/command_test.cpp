@@ -76,9 +76,8 @@ TEST_CASE("without a working gnuplot everything except the figures is written", 
     CHECK(outcome.status == 0);
     CHECK_THAT(outcome.errors, StartsWith("a351-correct: ") && ContainsSubstring(reason));
     CHECK(std::count(outcome.errors.begin(), outcome.errors.end(), '\n') == 1);
-    for (const std::string name : {"occupations.csv", "result.json", "figures/day.gp"}) {
+    for (const std::string name : {"occupations.csv", "result.json", "figures/day.gp"})
         CHECK(std::filesystem::exists(folder.path() / "result" / name));
-    }
     CHECK_FALSE(std::filesystem::exists(folder.path() / "result/figures/day.svg"));
     CHECK_THAT(text::read_text_file(folder.path() / "result/report.html"),
                ContainsSubstring(reason) && ContainsSubstring("Repeated stations"));
@@ -278,7 +277,6 @@ TEST_CASE("help and version are written to standard output with status 0", "[com
     const Outcome help = run(folder, "tide --help");
     CHECK(help.status == 0);
     CHECK(help.output.find("positive where gravity is larger") != std::string::npos);
-    for (const std::string command : {"survey", "table", "decimate", "emd", "smooth"}) {
+    for (const std::string command : {"survey", "table", "decimate", "emd", "smooth"})
         CHECK(run(folder, command + " --help").status == 0);
-    }
 }

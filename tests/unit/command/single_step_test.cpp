@@ -52,9 +52,8 @@ TEST_CASE("emd writes the modes and prints a summary of each", "[command]") {
     REQUIRE(modes.row_count() == 200);
     for (std::size_t row = 0; row < 200; ++row) {
         double sum = modes.number(row, "residue");
-        for (const char* const mode : {"imf1", "imf2", "imf3", "imf4"}) {
+        for (const char* const mode : {"imf1", "imf2", "imf3", "imf4"})
             sum += modes.number(row, mode);
-        }
         const double i = static_cast<double>(row);
         REQUIRE(sum == Approx(std::sin(0.3 * i) + 0.01 * i).margin(1e-12));
     }
@@ -92,9 +91,7 @@ TEST_CASE("the option --s-number changes the modes of emd and is refused out of 
 TEST_CASE("decimate counts missing samples and writes the valid values", "[command]") {
     const test::TemporaryDirectory folder;
     std::string rows = "time_s,a\n";
-    for (int i = 0; i < 1000; ++i) {
-        rows += std::to_string(i) + (i == 600 ? ",\n" : ",7\n");
-    }
+    for (int i = 0; i < 1000; ++i) rows += std::to_string(i) + (i == 600 ? ",\n" : ",7\n");
     folder.write("in.csv", rows);
     const Outcome outcome =
         run(folder, "decimate --factor 10 --input in.csv --column a --output out.csv");
@@ -207,9 +204,8 @@ TEST_CASE("a time column with unequal steps is refused at the row where the step
 TEST_CASE("smooth follows a straight line through a gap and an outlier", "[command]") {
     const test::TemporaryDirectory folder;
     std::string rows = "a\n";
-    for (int i = 0; i < 100; ++i) {
+    for (int i = 0; i < 100; ++i)
         rows += i == 40 ? " ,\n" : std::to_string(i == 60 ? 1000 : 2 * i + i % 2) + ",\n";
-    }
     folder.write("in.csv", "a,b\n" + rows.substr(2));
     const Outcome outcome = run(folder, "smooth --cutoff 50 --input in.csv --column a");
     CHECK(outcome.status == 0);

@@ -24,9 +24,8 @@ TEST_CASE("results are bit-identical on any number of threads and in every run")
         options.threads = threads;
         const Result many = eemd(signal, options);
         CHECK(components_of(many) == components_of(one));
-        for (std::size_t k = 0; k < one.modes.size(); ++k) {
+        for (std::size_t k = 0; k < one.modes.size(); ++k)
             CHECK(many.modes[k].standard_error == one.modes[k].standard_error);
-        }
     }
 }
 
@@ -41,9 +40,8 @@ TEST_CASE("the signal minus the sum of the components is the mean of the added n
         for (std::size_t i = 0; i < noise.size(); ++i) mean_noise[i] += noise[i] / 20.0;
     }
     const auto left_over = closure(signal, result);
-    for (std::size_t i = 0; i < signal.size(); ++i) {
+    for (std::size_t i = 0; i < signal.size(); ++i)
         REQUIRE(left_over[i] == Approx(-result.noise_level * mean_noise[i]).margin(1e-13));
-    }
 }
 
 TEST_CASE("the remaining noise falls with the square root of the ensemble size") {
@@ -91,9 +89,8 @@ TEST_CASE("components scale with the unit of the signal, for powers of two bit f
         for (double& value : scaled) value *= factor;
         const auto components = components_of(eemd(scaled, small_ensemble()));
         for (std::size_t k = 0; k < unit.size(); ++k) {
-            for (std::size_t i = 0; i < signal.size(); ++i) {
+            for (std::size_t i = 0; i < signal.size(); ++i)
                 REQUIRE(components[k][i] / factor == Approx(unit[k][i]).margin(1e-8));
-            }
         }
     }
 }
@@ -117,16 +114,14 @@ TEST_CASE("the stated standard error is the scatter of repeated ensembles") {
                 squares[k][i] += components[k][i] * components[k][i];
             }
         }
-        for (const Component& mode : result.modes) {
+        for (const Component& mode : result.modes)
             stated += *mode.standard_error * *mode.standard_error / runs;
-        }
         stated += *result.residue.standard_error * *result.residue.standard_error / runs;
     }
     double found = 0.0;
     for (std::size_t k = 0; k < sum.size(); ++k) {
-        for (std::size_t i = 0; i < 300; ++i) {
+        for (std::size_t i = 0; i < 300; ++i)
             found += (squares[k][i] - sum[k][i] * sum[k][i] / runs) / (runs - 1) / 300.0;
-        }
     }
     // The scatter of 40 runs of correlated samples is itself known to about a tenth.
     CHECK(std::sqrt(stated / found) == Approx(1.0).margin(0.2));
@@ -168,9 +163,8 @@ TEST_CASE("with complementary pairs an inverted signal has inverted components, 
     const Result flipped = eemd(signal, options);
     for (std::size_t k = 0; k < upright.modes.size(); ++k) {
         CHECK(flipped.modes[k].standard_error == upright.modes[k].standard_error);
-        for (std::size_t i = 0; i < signal.size(); ++i) {
+        for (std::size_t i = 0; i < signal.size(); ++i)
             REQUIRE(flipped.modes[k].values[i] == -upright.modes[k].values[i]);
-        }
     }
 }
 
@@ -181,9 +175,8 @@ TEST_CASE("a constant added to a signal appears only in the residue of an ensemb
     const auto after = components_of(eemd(signal, small_ensemble()));
     for (std::size_t k = 0; k < before.size(); ++k) {
         const double offset = k + 1 == before.size() ? 1024.0 : 0.0;
-        for (std::size_t i = 0; i < signal.size(); ++i) {
+        for (std::size_t i = 0; i < signal.size(); ++i)
             REQUIRE(after[k][i] - offset == Approx(before[k][i]).margin(1e-9));
-        }
     }
 }
 
@@ -214,14 +207,12 @@ TEST_CASE("the components of a record with reflected ends have the length of the
     }
     // A cosine reflected at its extrema continues unchanged: one mode with equal extrema.
     std::vector<double> cosine(401);
-    for (std::size_t i = 0; i < 401; ++i) {
+    for (std::size_t i = 0; i < 401; ++i)
         cosine[i] = std::cos(2.0 * std::numbers::pi * static_cast<double>(i) / 40.0);
-    }
     options.noise_ratio = 0.0;
     const Result result = eemd(cosine, options);
-    for (std::size_t i = 0; i < 401; ++i) {
+    for (std::size_t i = 0; i < 401; ++i)
         REQUIRE(result.modes[0].values[i] == Approx(cosine[i]).margin(1e-12));
-    }
 }
 
 TEST_CASE("progress counts up to all members, and its exception ends the decomposition") {

@@ -45,9 +45,8 @@ TEST_CASE("a signal reversed in time has components reversed in time") {
     auto backward = components_of(eemd(signal, plain()));
     for (std::size_t k = 0; k < forward.size(); ++k) {
         std::reverse(backward[k].begin(), backward[k].end());
-        for (std::size_t i = 0; i < signal.size(); ++i) {
+        for (std::size_t i = 0; i < signal.size(); ++i)
             REQUIRE(backward[k][i] == Approx(forward[k][i]).margin(1e-9));
-        }
     }
 }
 
@@ -59,9 +58,8 @@ TEST_CASE("a constant added to a signal appears only in the residue of plain EMD
     REQUIRE(after.size() == before.size());
     for (std::size_t k = 0; k < before.size(); ++k) {
         const double offset = k + 1 == before.size() ? 1024.0 : 0.0;
-        for (std::size_t i = 0; i < signal.size(); ++i) {
+        for (std::size_t i = 0; i < signal.size(); ++i)
             REQUIRE(after[k][i] - offset == Approx(before[k][i]).margin(1e-9));
-        }
     }
 }
 
@@ -91,9 +89,8 @@ TEST_CASE("every decomposition has the requested number of modes") {
 
 TEST_CASE("a mode reports its number of extrema and its mean period") {
     std::vector<double> signal(400);
-    for (std::size_t i = 0; i < 400; ++i) {
+    for (std::size_t i = 0; i < 400; ++i)
         signal[i] = std::sin(2.0 * std::numbers::pi * (static_cast<double>(i) + 0.3) / 20.0);
-    }
     const Result result = eemd(signal, plain());
     CHECK(result.modes[0].extrema_count == 40);
     CHECK(result.modes[0].mean_period_samples == 20.0);

@@ -57,9 +57,8 @@ TEST_CASE("maxima and minima of any series alternate and agree with a simple cou
         }
         const auto indices = extremum_indices(curve);
         REQUIRE(indices.size() == all.size());
-        for (std::size_t i = 0; i < all.size(); ++i) {
+        for (std::size_t i = 0; i < all.size(); ++i)
             CHECK(static_cast<double>(indices[i]) == std::floor(all[i]));
-        }
     }
 }
 

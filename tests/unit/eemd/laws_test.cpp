@@ -3,7 +3,6 @@
 /// figures.
 
 #include <array>
-#include <utility>
 #include "tests/support/catch.hpp"
 
 #include "tests/unit/eemd/series.hpp"
@@ -21,9 +20,8 @@ Options plain_sifting() {
 
 std::vector<double> tone(std::size_t n, double period, double amplitude = 1.0) {
     std::vector<double> out(n);
-    for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t i = 0; i < n; ++i)
         out[i] = amplitude * std::cos(kTurn * static_cast<double>(i) / period);
-    }
     return out;
 }
 
@@ -102,9 +100,8 @@ TEST_CASE("an ensemble separates a burst from the wave it rides on, plain EMD mi
     const std::size_t n = 2048;
     auto signal = tone(n, 128.0);
     std::vector<double> burst(n);
-    for (std::size_t i = 900; i < 1100; ++i) {
+    for (std::size_t i = 900; i < 1100; ++i)
         burst[i] = 0.2 * std::sin(kTurn * static_cast<double>(i) / 8.0);
-    }
     signal = sum(signal, burst);
     const auto before_burst = [](const std::vector<double>& values) {
         return rms(std::span(values).subspan(205, 600));
@@ -141,9 +138,8 @@ TEST_CASE("a short record reversed in time has its first mode reversed, with eve
                 options.ends = ends;
                 std::vector<double> signal = white_noise(n, seed);
                 // The mean of three samples leaves waves of five samples and longer.
-                for (std::size_t i = 0; i + 2 < n && seed % 2 == 1; ++i) {
+                for (std::size_t i = 0; i + 2 < n && seed % 2 == 1; ++i)
                     signal[i] = signal[i] + signal[i + 1] + signal[i + 2];
-                }
                 const auto first_mode = [&] {
                     EmdWorkspace emd(n);
                     std::copy(signal.begin(), signal.end(), emd.residue().begin());
@@ -157,9 +153,8 @@ TEST_CASE("a short record reversed in time has its first mode reversed, with eve
                 INFO(n << " samples, seed " << seed << ", ends " << static_cast<int>(ends));
                 REQUIRE(backward.size() == forward.size());
                 const double limit = 1e-11 * largest_magnitude(forward);
-                for (std::size_t i = 0; i < forward.size(); ++i) {
+                for (std::size_t i = 0; i < forward.size(); ++i)
                     REQUIRE(std::abs(backward[i] - forward[i]) <= limit);
-                }
             }
         }
     }
@@ -169,15 +164,13 @@ TEST_CASE("no component grows far beyond the range of the record at its ends") {
     for (const EndRule ends : {EndRule::line, EndRule::mirror}) {
         for (std::uint64_t seed = 0; seed < 20; ++seed) {
             auto signal = white_noise(450, seed);
-            for (std::size_t i = 0; i < signal.size(); ++i) {
+            for (std::size_t i = 0; i < signal.size(); ++i)
                 signal[i] += 1e-2 * static_cast<double>(i);
-            }
             const auto [low, high] = std::minmax_element(signal.begin(), signal.end());
             Options options = plain_sifting();
             options.ends = ends;
-            for (const auto& component : components_of(eemd(signal, options))) {
+            for (const auto& component : components_of(eemd(signal, options)))
                 CHECK(largest_magnitude(component) < 3.0 * (*high - *low));
-            }
         }
     }
 }

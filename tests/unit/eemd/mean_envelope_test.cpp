@@ -2,7 +2,6 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <array>
 #include "tests/support/catch.hpp"
 
 #include "corrector/eemd/sift_kernels.hpp"
@@ -111,9 +110,8 @@ public:
             diagonal[k] -= factor * above[k - 1];
             right[k] -= factor * right[k - 1];
         }
-        for (std::size_t k = n - 2; k >= 1; --k) {
+        for (std::size_t k = n - 2; k >= 1; --k)
             c_[k] = (right[k] - (k + 2 < n ? above[k] * c_[k + 1] : 0.0L)) / diagonal[k];
-        }
         c_[0] = c_[1] + left * (c_[1] - c_[2]);
         c_[n - 1] = c_[n - 2] + last * (c_[n - 2] - c_[n - 3]);
     }
@@ -160,9 +158,8 @@ TEST_CASE("splines through samples of two cubics have the mean of the cubics") {
         std::vector<double> y;
         for (std::size_t k = 0; k < count; ++k) y.push_back(k % 2 == 0 ? cubic(x[k]) : -3.0 * x[k]);
         const Mean mean(x, y);
-        for (double t = 0.0; t <= x[count - 2]; t += 0.25) {
+        for (double t = 0.0; t <= x[count - 2]; t += 0.25)
             CHECK(mean(t) == Approx(0.5 * (cubic(t) - 3.0 * t)).epsilon(1e-12).margin(1e-12));
-        }
     }
 }
 
@@ -186,9 +183,8 @@ TEST_CASE("envelopes with two to four knots are the polynomials through the knot
         std::vector<double> y;
         for (std::size_t k = 0; k < n; ++k) y.push_back(at(k, x[k]));
         const Mean mean(knots, y);
-        for (double t = 0.0; t <= x[n - 2]; t += 0.5) {
+        for (double t = 0.0; t <= x[n - 2]; t += 0.5)
             CHECK(mean(t) == Approx(0.5 * (polynomial(0, n, t) + polynomial(1, n, t))));
-        }
     }
 }
 
@@ -207,9 +203,8 @@ TEST_CASE("the mean envelope agrees with dense solutions of both splines") {
 TEST_CASE("thousands of knots are eliminated without overflow, to the same accuracy") {
     // Many blocks of the loops; distances of 1 to 7, and of 1 to 6e5 in the second half.
     std::vector<double> x = {0.0, 0.0};
-    for (std::size_t k = 0; k < 5000; ++k) {
+    for (std::size_t k = 0; k < 5000; ++k)
         x.push_back(x.back() + 1.0 + static_cast<double>((k * k) % 7) * (k > 2500 ? 1e5 : 1.0));
-    }
     x.push_back(x.back());
     for (const std::size_t count : {4999U, 5000U, 5001U, 5003U}) {
         const std::vector<double> knots(x.end() - static_cast<long>(count), x.end());

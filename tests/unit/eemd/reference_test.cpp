@@ -64,9 +64,8 @@ double plain_difference(const std::string& input, const std::string& settings,
     double largest = 0.0;
     for (std::size_t k = 0; k < found.size(); ++k) {
         REQUIRE(found[k].size() == every * expected[k].size());
-        for (std::size_t i = 0; i < expected[k].size(); ++i) {
+        for (std::size_t i = 0; i < expected[k].size(); ++i)
             largest = std::max(largest, std::abs(found[k][every * i] - expected[k][i]));
-        }
     }
     return largest / scale_of(signal);
 }

@@ -83,9 +83,8 @@ TEST_CASE("results are bit-identical in every build") {
     // The signal uses no sine of the platform's library, only exact steps and the generator's own
     // noise.
     std::vector<double> signal = white_noise(777, 5);
-    for (std::size_t i = 0; i < signal.size(); ++i) {
+    for (std::size_t i = 0; i < signal.size(); ++i)
         signal[i] += 0.01 * static_cast<double>(i) + 0.5 * static_cast<double>(i % 31);
-    }
     Options options;
     options.ensemble_size = 12;
     options.seed = 4;

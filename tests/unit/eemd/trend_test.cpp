@@ -15,9 +15,8 @@ Result by_trial(std::span<const double> signal, std::size_t most_extrema, Option
     const int most_modes = options.mode_count.value_or(default_mode_count(signal.size()));
     for (options.mode_count = 0;; ++*options.mode_count) {
         Result result = eemd(signal, options);
-        if (result.residue.extrema_count <= most_extrema || *options.mode_count == most_modes) {
+        if (result.residue.extrema_count <= most_extrema || *options.mode_count == most_modes)
             return result;
-        }
     }
 }
 

@@ -1,4 +1,3 @@
-#include <cmath>
 #include "tests/support/catch.hpp"
 
 #include "corrector/figure/gnuplot_script.hpp"

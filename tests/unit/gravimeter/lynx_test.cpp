@@ -5,7 +5,6 @@
 
 #include "tests/support/catch.hpp"
 
-#include "protocol/core/input_error.hpp"
 #include "tests/unit/gravimeter/made_up_lines.hpp"
 
 using namespace a351;

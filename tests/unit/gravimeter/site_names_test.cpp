@@ -3,7 +3,6 @@
 #include "tests/support/catch.hpp"
 
 #include "corrector/gravimeter/survey_tables.hpp"
-#include "protocol/core/input_error.hpp"
 #include "protocol/text/sites.hpp"
 #include "tests/support/temporary_directory.hpp"
 #include "tests/unit/gravimeter/made_up_lines.hpp"

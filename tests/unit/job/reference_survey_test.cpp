@@ -4,7 +4,6 @@
 
 #include "tests/support/catch.hpp"
 
-#include "protocol/core/input_error.hpp"
 #include "tests/support/temporary_directory.hpp"
 
 using namespace a351;

@@ -2,8 +2,6 @@
 
 #include "tests/support/catch.hpp"
 
-#include "protocol/core/input_error.hpp"
-
 using namespace a351;
 using namespace a351::corrector::job;
 using namespace a351::corrector::reading;

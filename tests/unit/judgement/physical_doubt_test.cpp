@@ -20,9 +20,8 @@ constexpr double kStudentLimit = 4.17;
 std::vector<SurveyRow> scattered_day() {
     auto rows = made_up::day();
     const double alternating[] = {1, -1, 1, 1, -1, -1, 1, -1, 1, 1, -1, -1};
-    for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (std::size_t i = 0; i < rows.size(); ++i)
         rows[i].acceleration = rows[i].acceleration + MilliGal(alternating[i]);
-    }
     return rows;
 }
 

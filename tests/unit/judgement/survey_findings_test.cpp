@@ -1,7 +1,5 @@
 #include "corrector/judgement/survey_findings.hpp"
 
-#include <fmt/core.h>
-
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>

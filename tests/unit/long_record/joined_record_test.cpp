@@ -5,7 +5,6 @@
 
 #include "corrector/long_record/csv_record.hpp"
 #include "corrector/long_record/record_segments.hpp"
-#include "protocol/core/input_error.hpp"
 #include "tests/support/temporary_directory.hpp"
 
 using namespace a351;

@@ -6,7 +6,6 @@
 
 #include "corrector/long_record/csv_record.hpp"
 #include "corrector/long_record/stretch_builder.hpp"
-#include "protocol/core/input_error.hpp"
 #include "tests/support/temporary_directory.hpp"
 
 using namespace a351;

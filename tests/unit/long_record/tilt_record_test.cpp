@@ -1,6 +1,5 @@
 #include "corrector/long_record/tilt_record.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>

@@ -3,7 +3,6 @@
 #include "tests/support/catch.hpp"
 
 #include "corrector/model/survey_correction.hpp"
-#include "protocol/core/input_error.hpp"
 #include "tests/unit/model/survey_rows.hpp"
 
 using namespace a351::corrector;

@@ -8,7 +8,6 @@
 #include "tests/support/catch.hpp"
 
 #include "corrector/result/result_files.hpp"
-#include "protocol/core/input_error.hpp"
 #include "tests/unit/model/rows_of_day.hpp"
 
 using namespace a351;

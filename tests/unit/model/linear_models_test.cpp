@@ -1,6 +1,5 @@
 #include "corrector/model/linear_models.hpp"
 
-#include <cmath>
 #include "tests/support/catch.hpp"
 
 #include "tests/unit/model/survey_rows.hpp"

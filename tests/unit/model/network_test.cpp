@@ -248,9 +248,8 @@ TEST_CASE("the global test fails on a blunder, and readings better than stated a
           "[survey][network]") {
     auto rows = day_with_quadratic_drift(0.0);
     const double alternating[] = {1, -1, 1, 1, -1, -1, 1, -1, 1, 1, -1, 1};
-    for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (std::size_t i = 0; i < rows.size(); ++i)
         rows[i].acceleration = rows[i].acceleration + MilliGal(2.0 * alternating[i]);
-    }
     const auto network = adjust(rows).adjustment.value();
     CHECK(network.passes_global_test().value());
     // From tables: chi-square with 2 degrees of freedom, 2.5 % and 97.5 %.
@@ -388,9 +387,8 @@ TEST_CASE("leave-one-station-out of a network is the error found by hiding a dat
     for (SurveyRow& row : rows) {
         if (row.site != "B" && row.site != "S2" && row.site != "S6") row.reference.reset();
     }
-    for (std::size_t i = 0; i < rows.size(); i += 3) {
+    for (std::size_t i = 0; i < rows.size(); i += 3)
         rows[i].acceleration = rows[i].acceleration + MilliGal(1.5);
-    }
     SurveyOptions options;
     options.model = "network";
     // The prediction v / r is exact for an adjustment that is linear in gravity.  With a free scale

@@ -127,9 +127,8 @@ TEST_CASE("redundancies of the stations add up to the degrees of freedom", "[sur
     auto rows = made_up::day();
     rows[5].is_flagged = true;
     double sum = 0.0;
-    for (const StationValue& station : correct_survey(rows, with_model("t-rate")).stations) {
+    for (const StationValue& station : correct_survey(rows, with_model("t-rate")).stations)
         sum += station.redundancy.value_or(0.0);
-    }
     CHECK(sum == Approx(11.0 - 3.0));
 }
 

@@ -2,8 +2,6 @@
 
 #include <array>
 #include <cstdio>
-#include <functional>
-#include <string>
 
 #include "tests/support/catch.hpp"
 #include "tests/support/long_tests.hpp"
@@ -66,9 +64,7 @@ TEST_CASE("the limits contain the Allan deviation and the levels of known noises
             const std::array<double, 3> true_levels{truth.white_mgal_sqrt_s.value,
                                                     truth.flicker_mgal.value,
                                                     truth.walk_mgal_per_sqrt_s.value};
-            for (std::size_t i = 0; i < 3; ++i) {
-                levels[i].add(found_levels[i], true_levels[i]);
-            }
+            for (std::size_t i = 0; i < 3; ++i) levels[i].add(found_levels[i], true_levels[i]);
         }
         std::printf("%s: deviations", known.name);
         for (const Share& share : points) {

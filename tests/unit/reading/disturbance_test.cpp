@@ -1,6 +1,5 @@
 #include "corrector/reading/disturbance.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include "tests/support/catch.hpp"
@@ -30,9 +29,8 @@ std::vector<std::size_t> indices(const Disturbances& found) {
 }  // namespace
 
 TEST_CASE("noise on a drift of any slope is not a disturbance, not even at the ends") {
-    for (const double slope : {0.0, 0.05, -1.0, 20.0}) {
+    for (const double slope : {0.0, 0.05, -1.0, 20.0})
         CHECK(indices(find_disturbances(noisy_ramp(450, slope), 8.0)).empty());
-    }
 }
 
 TEST_CASE("quiet parts end at knocks and at missing samples") {
@@ -91,9 +89,8 @@ TEST_CASE("the baseline is the undisturbed level, also under a transient at the 
 }
 
 TEST_CASE("series of 0 to 70 samples are accepted") {
-    for (std::size_t n = 0; n <= 70; ++n) {
+    for (std::size_t n = 0; n <= 70; ++n)
         CHECK(find_disturbances(std::vector<double>(n, 1.0), 8.0).disturbed.size() == n);
-    }
 }
 
 TEST_CASE("despiking replaces the disturbed samples by the baseline and no others") {

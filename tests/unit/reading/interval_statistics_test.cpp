@@ -32,9 +32,8 @@ TEST_CASE("the block standard error of white noise is sigma divided by the squar
 
 TEST_CASE("slope, range and shape of a temperature ramp are found, even with gaps") {
     std::vector<double> values(450);
-    for (std::size_t i = 0; i < values.size(); ++i) {
+    for (std::size_t i = 0; i < values.size(); ++i)
         values[i] = 42.5 + 0.3 * static_cast<double>(i) * 2.0 / 3600.0;
-    }
     values[200] = std::nan("");
     const auto summary = summarise_temperature(temperature_at_half_hertz(values), 100, 400);
     REQUIRE(summary);
@@ -67,9 +66,8 @@ TEST_CASE("an axis has its mean, and its rms about the trend") {
     std::vector<double> raw(1000);
     std::vector<double> trend(10);
     for (std::size_t k = 0; k < trend.size(); ++k) trend[k] = 0.1 * static_cast<double>(k);
-    for (std::size_t i = 0; i < raw.size(); ++i) {
+    for (std::size_t i = 0; i < raw.size(); ++i)
         raw[i] = 0.001 * static_cast<double>(i) + (i % 2 == 0 ? 1e-6 : -1e-6);
-    }
     const TimeSeries<StandardGravity> axis(kSiteStart, Hertz(50.0), raw);
     const TimeSeries<StandardGravity> level(kSiteStart, Hertz(0.5), trend);
     const AxisSummary summary = summarise_axis(axis, level, 100, 2, 8);

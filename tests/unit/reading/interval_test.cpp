@@ -12,9 +12,8 @@ constexpr std::size_t kMargin = 30;
 /// Returns a curve of `n` samples with extrema at 50, 100, 150, ... (a maximum first).
 std::vector<double> wave(std::size_t n) {
     std::vector<double> curve(n);
-    for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t i = 0; i < n; ++i)
         curve[i] = -std::cos(std::numbers::pi * static_cast<double>(i) / 50.0);
-    }
     return curve;
 }
 

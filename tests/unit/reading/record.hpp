@@ -45,9 +45,8 @@ OccupationRecord make_record(double seconds, Level level, Temperature temperatur
         return TimeSeries<StandardGravity>(kSiteStart, Hertz(50.0), std::move(values));
     };
     std::vector<double> degc(n + 2 * lead);
-    for (std::size_t i = 0; i < degc.size(); ++i) {
+    for (std::size_t i = 0; i < degc.size(); ++i)
         degc[i] = temperature((static_cast<double>(i) - static_cast<double>(lead)) / 50.0);
-    }
     const auto zero = [](double) { return 0.0; };
     return {axis(0, zero), axis(1, zero), axis(2, level),
             TimeSeries<DegC>(kSiteStart - from_seconds(lead_s), Hertz(50.0), std::move(degc))};

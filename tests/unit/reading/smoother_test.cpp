@@ -23,9 +23,8 @@ std::vector<double> white_noise(std::uint64_t member, std::size_t n) {
 
 std::vector<double> sine(std::size_t n, double period) {
     std::vector<double> values(n);
-    for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t i = 0; i < n; ++i)
         values[i] = std::sin(2.0 * std::numbers::pi * static_cast<double>(i) / period);
-    }
     return values;
 }
 
@@ -103,17 +102,15 @@ TEST_CASE("a sine of the cut-off period is smoothed to half its height") {
     const std::vector<double> series = sine(3000, period);  // end effects reach 10 periods
     const SmoothTrend trend = smooth(series, period);
     CAPTURE(period);
-    for (std::size_t i = 1400; i < 1600; ++i) {
+    for (std::size_t i = 1400; i < 1600; ++i)
         REQUIRE(trend.curve[i] == Approx(0.5 * series[i]).margin(1e-9));
-    }
     const double slow_gain = 1.0 / (1.0 + std::pow(std::sin(std::numbers::pi / (4.0 * period)) /
                                                        std::sin(std::numbers::pi / period),
                                                    4.0));
     const std::vector<double> slow = sine(3000, 4.0 * period);
     const SmoothTrend slow_trend = smooth(slow, period);
-    for (std::size_t i = 1400; i < 1600; ++i) {
+    for (std::size_t i = 1400; i < 1600; ++i)
         REQUIRE(slow_trend.curve[i] == Approx(slow_gain * slow[i]).margin(1e-9));
-    }
 }
 
 TEST_CASE("a straight line at a full gravity level is unchanged, even with gaps") {
@@ -124,9 +121,8 @@ TEST_CASE("a straight line at a full gravity level is unchanged, even with gaps"
     for (const std::size_t i : {0U, 1U, 200U, 201U, 202U, 203U, 499U}) gaps[i] = kNan;
     gaps[300] = std::numeric_limits<double>::infinity();
     const SmoothTrend trend = smooth(gaps, 100.0);
-    for (std::size_t i = 0; i < line.size(); ++i) {
+    for (std::size_t i = 0; i < line.size(); ++i)
         REQUIRE(trend.curve[i] == Approx(line[i]).margin(1e-8).epsilon(0));
-    }
     CHECK(trend.degrees_of_freedom > 2.0);
     CHECK(trend.degrees_of_freedom < 20.0);
 }
@@ -162,9 +158,8 @@ TEST_CASE("Gaussian noise is fitted as by least squares, and outliers are left o
     const SmoothTrend robust = smooth(struck, 150.0);
     CHECK(robust.weights[302] == 0.0);
     double squares = 0.0;
-    for (std::size_t i = 0; i < 600; ++i) {
+    for (std::size_t i = 0; i < 600; ++i)
         squares += (robust.curve[i] - clean.curve[i]) * (robust.curve[i] - clean.curve[i]) / 600.0;
-    }
     CHECK(std::sqrt(squares) < 0.1 * clean.noise_level);
     CHECK(robust.noise_level == Approx(clean.noise_level).epsilon(0.03));
 }
@@ -227,9 +222,8 @@ TEST_CASE("samples up to 1e150 are smoothed like others, larger ones are refused
     for (double& value : large) value *= 2e149;
     const SmoothTrend trend = smooth(large, 10.0);
     CHECK(trend.noise_level / 2e149 == Approx(plain.noise_level));
-    for (std::size_t i = 0; i < 100; ++i) {
+    for (std::size_t i = 0; i < 100; ++i)
         REQUIRE(trend.curve[i] / 2e149 == Approx(plain.curve[i]).margin(1e-12));
-    }
     large[50] = -1.2e150;
     CHECK_THROWS_AS(smooth(large, 10.0), std::invalid_argument);
     large[50] = 1.2e308;
@@ -255,9 +249,8 @@ TEST_CASE("weights that would alternate converge, and the result says if they do
 
 TEST_CASE("an unusable period or number of samples is refused") {
     const std::vector<double> series(10, 1.0);
-    for (const double period : {1.9, 5001.0, kNan}) {
+    for (const double period : {1.9, 5001.0, kNan})
         CHECK_THROWS_AS(smooth(series, period), std::invalid_argument);
-    }
     CHECK_THROWS_AS(smooth(std::vector<double>{1.0, 2.0, kNan, kNan}, 5.0), std::invalid_argument);
     CHECK(smooth(std::vector<double>{1.0, kNan, 2.0, 3.0}, 5.0).curve.size() == 4);
     // Three samples at one end of 5000: rounding ruins a stiff curve before the other end.

@@ -4,8 +4,6 @@
 #include <array>
 #include "tests/support/catch.hpp"
 
-#include "protocol/core/input_error.hpp"
-
 using namespace a351;
 using namespace a351::corrector::reading;
 

@@ -5,7 +5,6 @@
 
 #include "protocol/archive/miniseed.hpp"
 #include "protocol/archive/sds.hpp"
-#include "protocol/core/input_error.hpp"
 #include "protocol/files/file_layer.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_directory.hpp"

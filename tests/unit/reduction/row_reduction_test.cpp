@@ -1,7 +1,6 @@
 #include "corrector/reduction/row_reduction.hpp"
 
 #include "corrector/reduction/plate_and_pressure.hpp"
-#include "protocol/core/input_error.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_directory.hpp"
 

@@ -1,5 +1,4 @@
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <pugixml.hpp>
 #include <random>
 #include "tests/support/catch.hpp"

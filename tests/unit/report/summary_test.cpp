@@ -23,9 +23,8 @@ SurveyCorrection corrected(const std::vector<SurveyRow>& rows) {
 /// Returns good readings with some scatter.
 std::vector<SurveyRow> scattered_day() {
     auto rows = made_up::day();
-    for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (std::size_t i = 0; i < rows.size(); ++i)
         rows[i].acceleration = rows[i].acceleration + MilliGal(i % 2 == 0 ? 0.5 : -0.5);
-    }
     return rows;
 }
 

@@ -7,7 +7,6 @@
 #include "corrector/judgement/physical_doubt.hpp"
 #include "corrector/model/survey_correction.hpp"
 #include "corrector/result/table_text.hpp"
-#include "protocol/core/input_error.hpp"
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/csv.hpp"
 #include "protocol/text/input_file.hpp"

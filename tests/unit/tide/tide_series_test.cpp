@@ -29,9 +29,8 @@ tide::Series series(const std::string& rows) {
 
 tide::Series sampled_tide(std::chrono::seconds step, std::chrono::hours length) {
     std::string rows;
-    for (UtcTime time = kStart; time <= kStart + length; time += step) {
+    for (UtcTime time = kStart; time <= kStart + length; time += step)
         rows += to_rfc3339(time) + ',' + text::shortest(direct_tide(time, kTsukuba).value()) + '\n';
-    }
     return series(rows);
 }
 
@@ -78,9 +77,8 @@ TEST_CASE("interpolation of a cubic is exact with unequal steps and at both ends
 TEST_CASE("there is no value outside the series or in a gap, but there is one beside a gap",
           "[survey][tide_series]") {
     std::string rows;
-    for (const auto minute : {0min, 30min, 60min, 90min, 151min, 180min, 210min, 240min}) {
+    for (const auto minute : {0min, 30min, 60min, 90min, 151min, 180min, 210min, 240min})
         rows += cubic_row(minute);
-    }
     const tide::Series tide = series(rows);
     CHECK_FALSE(tide.at(kStart - 1s).has_value());
     CHECK_FALSE(tide.at(kStart + 240min + 1s).has_value());
@@ -105,9 +103,8 @@ TEST_CASE("a bad series is refused with line, column and value", "[survey][tide_
 TEST_CASE("a row that the series does not cover is refused by name", "[survey][tide_series]") {
     const test::TemporaryDirectory folder;
     std::string csv = "time,tide_mgal\n";
-    for (int hour = 0; hour < 4; ++hour) {
+    for (int hour = 0; hour < 4; ++hour)
         csv += to_rfc3339(made_up::kMorning + std::chrono::hours(hour)) + ",0.05\n";
-    }
     tide::Choice choice;
     REQUIRE(set_tide_source(choice, folder.write("t.csv", csv).string(), ""));
     auto rows = made_up::day();
