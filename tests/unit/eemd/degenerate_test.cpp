@@ -1,3 +1,4 @@
+#include <functional>
 #include <limits>
 #include "tests/support/catch.hpp"
 
@@ -11,10 +12,10 @@ const double kInfinity = std::numeric_limits<double>::infinity();
 
 std::vector<Options> every_kind() {
     std::vector<Options> kinds;
-    for (const double noise_ratio : {0.0, 0.1}) {
+    for (const double noise_ratio : {0.0, 0.1})
         for (const StoppingRule& stopping :
-             {StoppingRule(FixedSifts{10}), StoppingRule(SNumber{4})}) {
-            for (const FinishRule finish : {FinishRule::at_most_two_extrema, FinishRule::always}) {
+             {StoppingRule(FixedSifts{10}), StoppingRule(SNumber{4})})
+            for (const FinishRule finish : {FinishRule::at_most_two_extrema, FinishRule::always})
                 for (const int members : {1, 9}) {
                     Options options;
                     options.ensemble_size = members;
@@ -27,9 +28,6 @@ std::vector<Options> every_kind() {
                     options.reflect_ends = true;
                     kinds.push_back(options);
                 }
-            }
-        }
-    }
     return kinds;
 }
 
@@ -67,35 +65,20 @@ TEST_CASE("a constant has zero modes and is its own residue, with and without no
 }
 
 TEST_CASE("difficult shapes can be decomposed") {
-    std::vector<double> signal(64);
-    const auto fill = [&](auto shape) {
-        for (std::size_t i = 0; i < signal.size(); ++i) signal[i] = shape(i);
+    const std::vector<std::pair<const char*, std::function<double(int)>>> shapes{
+        {"constant except for rounding", [](int i) { return 98e4 + (i % 3 == 0 ? 1.2e-10 : 0.0); }},
+        {"monotone", [](int i) { return i * i; }},
+        {"step", [](int i) { return i < 20 ? 0.0 : 1.0; }},
+        {"single spike", [](int i) { return i == 20 ? 1.0 : 0.0; }},
+        {"alternating", [](int i) { return i % 2 == 0 ? 1.0 : -1.0; }},
+        {"plateaus at the ends", [](int i) { return i < 8 || i > 50 ? 0.0 : std::sin(i); }},
+        {"near overflow", [](int i) { return 1e300 * std::sin(i); }},
+        {"subnormal", [](int i) { return 1e-310 * std::sin(i); }}};
+    for (const auto& [name, shape] : shapes) {
+        CAPTURE(name);
+        std::vector<double> signal;
+        for (int i = 0; i < 64; ++i) signal.push_back(shape(i));
         check_sane(signal);
-    };
-    SECTION("constant except for rounding") {
-        fill([](std::size_t i) { return 980'000.0 + (i % 3 == 0 ? 1.2e-10 : 0.0); });
-    }
-    SECTION("monotone") {
-        fill([](std::size_t i) { return static_cast<double>(i * i); });
-    }
-    SECTION("step") {
-        fill([](std::size_t i) { return i < 20 ? 0.0 : 1.0; });
-    }
-    SECTION("single spike") {
-        fill([](std::size_t i) { return i == 20 ? 1.0 : 0.0; });
-    }
-    SECTION("alternating") {
-        fill([](std::size_t i) { return i % 2 == 0 ? 1.0 : -1.0; });
-    }
-    SECTION("plateaus at the ends") {
-        fill(
-            [](std::size_t i) { return i < 8 || i > 50 ? 0.0 : std::sin(static_cast<double>(i)); });
-    }
-    SECTION("near overflow") {
-        fill([](std::size_t i) { return 1e300 * std::sin(static_cast<double>(i)); });
-    }
-    SECTION("subnormal") {
-        fill([](std::size_t i) { return 1e-310 * std::sin(static_cast<double>(i)); });
     }
 }
 
@@ -104,17 +87,14 @@ TEST_CASE("a tone with four samples per period stays in the first mode") {
     for (std::size_t i = 0; i < signal.size(); ++i)
         signal[i] = i % 4 == 0 ? 1.0 : (i % 4 == 2 ? -1.0 : 0.0);
     check_sane(signal);
-    Options options;
-    options.noise_ratio = 0.0;
-    const Result result = eemd(signal, options);
+    const Result result = eemd(signal, plain());
     CHECK(result.modes[0].mean_period_samples == Approx(4.0).epsilon(0.02));
     CHECK(result.modes[0].energy_share > 0.99);
 }
 
 TEST_CASE("a record of a million samples can be decomposed") {
     const std::vector<double> signal = white_noise(1'000'000, 3);
-    Options options;
-    options.noise_ratio = 0.0;
+    Options options = plain();
     options.mode_count = 4;
     options.stopping = FixedSifts{2};
     const Result result = eemd(signal, options);

@@ -12,9 +12,10 @@ namespace {
 using Numbers = std::vector<double>;
 
 struct Found {
-    Numbers maxima;
-    Numbers minima;
+    Numbers maxima, minima;
 };
+
+Numbers copy(std::span<const double> values) { return {values.begin(), values.end()}; }
 
 AlternatingKnots extrema_of(const Numbers& curve) {
     AlternatingKnots knots(curve.size());
@@ -50,11 +51,10 @@ TEST_CASE("maxima and minima of any series alternate and agree with a simple cou
         Numbers all = found.maxima;
         all.insert(all.end(), found.minima.begin(), found.minima.end());
         std::sort(all.begin(), all.end());
-        for (std::size_t i = 1; i < all.size(); ++i) {
+        for (std::size_t i = 1; i < all.size(); ++i)
             CHECK(std::count(found.maxima.begin(), found.maxima.end(), all[i]) +
                       std::count(found.maxima.begin(), found.maxima.end(), all[i - 1]) ==
                   1);
-        }
         const auto indices = extremum_indices(curve);
         REQUIRE(indices.size() == all.size());
         for (std::size_t i = 0; i < all.size(); ++i)
@@ -68,22 +68,11 @@ TEST_CASE("a plateau is one extremum at its middle, which may fall between sampl
     CHECK(find({0, -1, -1, 0}).minima == Numbers{1.5});
 }
 
-TEST_CASE("a flat step on a slope is not an extremum") {
-    const Found found = find({0, 1, 1, 2, 3});
-    CHECK(found.maxima.empty());
-    CHECK(found.minima.empty());
-}
-
-TEST_CASE("a plateau at an end of the series is not an extremum") {
-    const Found found = find({1, 1, 0, 2, 2});
-    CHECK(found.maxima.empty());
-    CHECK(found.minima == Numbers{2.0});
-}
-
-TEST_CASE("series of zero, one and two samples have no extrema") {
-    for (const Numbers& curve : {Numbers{}, Numbers{1}, Numbers{1, 2}}) {
+TEST_CASE("a step on a slope and a plateau at an end are no extrema, and two samples have none") {
+    for (const Numbers& curve :
+         {Numbers{0, 1, 1, 2, 3}, Numbers{}, Numbers{1}, Numbers{1, 2}, Numbers{1, 1, 0, 2, 2}}) {
         CHECK(find(curve).maxima.empty());
-        CHECK(find(curve).minima.empty());
+        CHECK(find(curve).minima == (curve == Numbers{1, 1, 0, 2, 2} ? Numbers{2.0} : Numbers{}));
     }
 }
 
@@ -116,26 +105,19 @@ TEST_CASE(
     const Numbers curve = {0, 3, 0, 2, 0, 1.5};
     AlternatingKnots knots = extrema_of(curve);
     knots.add_ends(curve, EndRule::line);
-    const auto copy = [](std::span<const double> s) { return Numbers(s.begin(), s.end()); };
     CHECK(copy(knots.positions()) == Numbers{0, 0, 1, 2, 3, 4, 5, 5});
     CHECK(copy(knots.values()) == Numbers{3.5, 0, 3, 0, 2, 0, 1.5, 0});
 }
 
 TEST_CASE("mirrored extrema continue to alternate beyond the ends") {
-    const auto copy = [](std::span<const double> s) { return Numbers(s.begin(), s.end()); };
-    SECTION("about the outermost extremum if the end sample lies within") {
-        const Numbers curve = {1, 3, 0, 2, 0, 3, 1};
+    // The mirror is the outermost extremum if the end sample lies within, else the end sample.
+    for (const auto& [curve, values] :
+         {std::pair(Numbers{1, 3, 0, 2, 0, 3, 1}, Numbers{3, 0, 2, 0, 3, 0, 2, 0, 3, 0, 2, 0, 3}),
+          {{-1, 3, 0, 2, 0, 3, -1}, {2, 0, 3, -1, 3, 0, 2, 0, 3, -1, 3, 0, 2}}}) {
         AlternatingKnots knots = extrema_of(curve);
         knots.add_ends(curve, EndRule::mirror);
         CHECK(copy(knots.positions()) == Numbers{-3, -2, -1, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9});
-        CHECK(copy(knots.values()) == Numbers{3, 0, 2, 0, 3, 0, 2, 0, 3, 0, 2, 0, 3});
-    }
-    SECTION("about the end sample if it lies beyond the next extremum") {
-        const Numbers curve = {-1, 3, 0, 2, 0, 3, -1};
-        AlternatingKnots knots = extrema_of(curve);
-        knots.add_ends(curve, EndRule::mirror);
-        CHECK(copy(knots.positions()) == Numbers{-3, -2, -1, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9});
-        CHECK(copy(knots.values()) == Numbers{2, 0, 3, -1, 3, 0, 2, 0, 3, -1, 3, 0, 2});
+        CHECK(copy(knots.values()) == values);
     }
 }
 

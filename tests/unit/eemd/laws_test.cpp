@@ -12,19 +12,6 @@ namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
-Options plain_sifting() {
-    Options options;
-    options.noise_ratio = 0.0;
-    return options;
-}
-
-std::vector<double> tone(std::size_t n, double period, double amplitude = 1.0) {
-    std::vector<double> out(n);
-    for (std::size_t i = 0; i < n; ++i)
-        out[i] = amplitude * std::cos(kTurn * static_cast<double>(i) / period);
-    return out;
-}
-
 std::vector<double> sum(std::vector<double> a, const std::vector<double>& b) {
     for (std::size_t i = 0; i < a.size(); ++i) a[i] += b[i];
     return a;
@@ -48,7 +35,7 @@ TEST_CASE("ten sifts of white noise act like a bank of octave filters") {
     std::array<double, 9> log_period{};
     std::array<double, 9> log_energy{};
     for (std::uint64_t record = 0; record < kRecords; ++record) {
-        const auto result = eemd(white_noise(8192, 50 + record), plain_sifting());
+        const auto result = eemd(white_noise(8192, 50 + record), plain());
         for (std::size_t k = 0; k < 9; ++k) {
             log_period[k] += std::log(result.modes[k].mean_period_samples) / kRecords;
             log_energy[k] += 2.0 * std::log(rms(result.modes[k].values)) / kRecords;
@@ -73,7 +60,7 @@ TEST_CASE("ten sifts of white noise act like a bank of octave filters") {
 TEST_CASE("a pure tone stays in one mode") {
     for (const double period : {7.3, 16.0, 61.7}) {
         const auto signal = tone(2000, period);
-        const auto result = eemd(signal, plain_sifting());
+        const auto result = eemd(signal, plain());
         INFO("period " << period);
         // Half a sample beside an extremum the tone is lower by 1 - cos(pi / period).
         CHECK(inner_difference(result.modes[0].values, signal) <
@@ -88,11 +75,11 @@ TEST_CASE("tones an octave and a half apart separate, a sixth of an octave apart
     // below 0.5 separate, above 0.75 one mode holds the beat.
     const auto fast = tone(2000, 16.0);
     const auto slow = tone(2000, 45.0);
-    const auto apart = eemd(sum(fast, slow), plain_sifting());
+    const auto apart = eemd(sum(fast, slow), plain());
     CHECK(inner_difference(apart.modes[0].values, fast) < 0.02);
     CHECK(inner_difference(apart.modes[1].values, slow) < 0.02);
     const auto beat = sum(fast, tone(2000, 18.0));
-    CHECK(inner_difference(eemd(beat, plain_sifting()).modes[0].values, beat) < 0.1);
+    CHECK(inner_difference(eemd(beat, plain()).modes[0].values, beat) < 0.1);
 }
 
 TEST_CASE("an ensemble separates a burst from the wave it rides on, plain EMD mixes them") {
@@ -106,26 +93,16 @@ TEST_CASE("an ensemble separates a burst from the wave it rides on, plain EMD mi
     const auto before_burst = [](const std::vector<double>& values) {
         return rms(std::span(values).subspan(205, 600));
     };
-    CHECK(before_burst(eemd(signal, plain_sifting()).modes[0].values) >
-          0.5);  // the slow wave has 0.7
+    CHECK(before_burst(eemd(signal, plain()).modes[0].values) > 0.5);  // the slow wave has 0.7
 
     Options options;
     options.noise_ratio = 0.2;
     options.ensemble_size = 200;
     std::vector<double> fast(n);
-    for (const Component& mode : eemd(signal, options).modes) {
+    for (const Component& mode : eemd(signal, options).modes)
         if (mode.mean_period_samples < 32.0) fast = sum(fast, mode.values);
-    }
     CHECK(before_burst(fast) < 0.05);
     CHECK(inner_difference(fast, burst) < 0.3 * rms(std::span(burst).subspan(900, 200)));
-}
-
-TEST_CASE("the noise that an ensemble leaves has the theoretical size within 5 percent") {
-    const auto signal = mixed_series(5400);  // 5400 samples determine its rms to 1 percent
-    Options options;
-    options.ensemble_size = 16;
-    const Result result = eemd(signal, options);
-    CHECK(rms(closure(signal, result)) * 4.0 / result.noise_level == Approx(1.0).epsilon(0.05));
 }
 
 TEST_CASE("a short record reversed in time has its first mode reversed, with every end rule") {
@@ -167,7 +144,7 @@ TEST_CASE("no component grows far beyond the range of the record at its ends") {
             for (std::size_t i = 0; i < signal.size(); ++i)
                 signal[i] += 1e-2 * static_cast<double>(i);
             const auto [low, high] = std::minmax_element(signal.begin(), signal.end());
-            Options options = plain_sifting();
+            Options options = plain();
             options.ends = ends;
             for (const auto& component : components_of(eemd(signal, options)))
                 CHECK(largest_magnitude(component) < 3.0 * (*high - *low));

@@ -171,9 +171,8 @@ TEST_CASE("envelopes with two to four knots are the polynomials through the knot
         double sum = 0.0;
         for (std::size_t i = first; i < n; i += 2) {
             double weight = 1.0;
-            for (std::size_t j = first; j < n; j += 2) {
+            for (std::size_t j = first; j < n; j += 2)
                 if (j != i) weight *= (t - x[j]) / (x[i] - x[j]);
-            }
             sum += weight * at(i, x[i]);
         }
         return sum;

@@ -48,15 +48,14 @@ double scale_of(std::vector<double> signal) {
     return scale > 1e-12 ? scale : 1.0;
 }
 
-/// Returns the largest difference over all components, relative to scale_of(input). The table has
-/// all samples or one in `every`.
-double plain_difference(const std::string& input, const std::string& settings,
-                        StoppingRule stopping, std::size_t every = 1) {
+/// Returns the largest difference over all components, relative to scale_of(input). The settings
+/// say the stopping rule and whether the table has all samples or every twentieth.
+double plain_difference(const std::string& input, const std::string& settings) {
+    const std::size_t every = settings.ends_with("_every20") ? 20 : 1;
     const std::vector<double> signal = read_input(input);
     const auto expected = read_table(input + "__emd_" + settings);
-    Options options;
-    options.noise_ratio = 0.0;
-    options.stopping = stopping;
+    Options options = plain();
+    options.stopping = settings.starts_with("s4") ? StoppingRule(SNumber{4}) : FixedSifts{10};
     options.finish = FinishRule::always;
     options.mode_count = static_cast<int>(expected.size()) - 1;
     const auto found = components_of(eemd(signal, options));
@@ -72,8 +71,9 @@ double plain_difference(const std::string& input, const std::string& settings,
 
 }  // namespace
 
-TEST_CASE("ten sifts reproduce the reference modes") {
-    const FixedSifts ten{10};
+TEST_CASE(
+    "ten sifts and the S-number rule reproduce the reference modes, those of a long record at "
+    "every twentieth sample") {
     const auto [input, settings, limit] = GENERATE(table<std::string, std::string, double>({
         {"s1_sine_trend", "fix10_m9", 2e-7},
         {"s4_long20s", "fix10_m11", 4e-14},
@@ -82,15 +82,6 @@ TEST_CASE("ten sifts reproduce the reference modes") {
         {"s6_short2", "fix10_m1", 6e-15},
         {"s6_short4", "fix10_m2", 6e-15},
         {"s6_short16", "fix10_m4", 6e-15},
-    }));
-    const double difference = plain_difference(input, settings, ten);
-    INFO(input << ": " << difference);
-    CHECK(difference <= limit);
-}
-
-TEST_CASE("the S-number rule reproduces the reference modes") {
-    const SNumber four{4};
-    const auto [input, settings, limit] = GENERATE(table<std::string, std::string, double>({
         {"s1_sine_trend", "s4max50_m9", 5e-6},
         {"s6_const64", "s4max50_m6", 6e-15},
         {"s6_plateau64", "s4max50_m6", 6e-15},
@@ -100,19 +91,11 @@ TEST_CASE("the S-number rule reproduces the reference modes") {
         // the two samples at its bottom differ in the last bit or are a plateau depends on earlier
         // rounding.
         {"s6_short16", "s4max50_m4", 6e-15},
+        {"s4_long20s", "fix10_m12_every20", 2e-10},
+        {"s4_long20s", "s4max50_m12_every20", 3e-8},
     }));
-    const double difference = plain_difference(input, settings, four);
-    INFO(input << ": " << difference);
-    CHECK(difference <= limit);
-}
-
-TEST_CASE("the deep modes of a long record agree with the reference at every twentieth sample") {
-    const auto [settings, stopping, limit] = GENERATE(table<std::string, StoppingRule, double>({
-        {"fix10_m12", FixedSifts{10}, 2e-10},
-        {"s4max50_m12", SNumber{4}, 3e-8},
-    }));
-    const double difference = plain_difference("s4_long20s", settings + "_every20", stopping, 20);
-    INFO(settings << ": " << difference);
+    const double difference = plain_difference(input, settings);
+    INFO(input << ' ' << settings << ": " << difference);
     CHECK(difference <= limit);
 }
 

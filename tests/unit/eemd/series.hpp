@@ -20,6 +20,28 @@ inline std::vector<double> white_noise(std::size_t n, std::uint64_t seed) {
     return noise;
 }
 
+/// Returns a cosine that begins at a phase, in samples.
+inline std::vector<double> tone(std::size_t n, double period, double phase = 0.0) {
+    std::vector<double> out(n);
+    for (std::size_t i = 0; i < n; ++i)
+        out[i] = std::cos(2.0 * std::numbers::pi * (static_cast<double>(i) + phase) / period);
+    return out;
+}
+
+/// Returns the options of plain EMD.
+inline Options plain() {
+    Options options;
+    options.noise_ratio = 0.0;
+    return options;
+}
+
+inline Options small_ensemble(int members = 20) {
+    Options options;
+    options.ensemble_size = members;
+    options.seed = 11;
+    return options;
+}
+
 /// Returns a drift, a slow and a fast wave, and some noise; of order 1.
 inline std::vector<double> mixed_series(std::size_t n) {
     std::vector<double> series = white_noise(n, 7);
@@ -51,25 +73,17 @@ inline double largest_magnitude(std::span<const double> values) {
     return largest;
 }
 
-/// Returns the largest magnitude of the signal minus the sum of the components.
-inline double closure_error(std::span<const double> signal, const Result& result) {
-    const auto components = components_of(result);
-    double largest = 0.0;
-    for (std::size_t i = 0; i < signal.size(); ++i) {
-        double total = 0.0;
-        for (const auto& component : components) total += component[i];
-        largest = std::max(largest, std::abs(signal[i] - total));
-    }
-    return largest;
-}
-
 /// Returns the signal minus the sum of the components.
 inline std::vector<double> closure(std::span<const double> signal, const Result& result) {
     std::vector<double> rest(signal.begin(), signal.end());
-    for (const auto& component : components_of(result)) {
+    for (const auto& component : components_of(result))
         for (std::size_t i = 0; i < rest.size(); ++i) rest[i] -= component[i];
-    }
     return rest;
+}
+
+/// Returns the largest magnitude of the signal minus the sum of the components.
+inline double closure_error(std::span<const double> signal, const Result& result) {
+    return largest_magnitude(closure(signal, result));
 }
 
 }  // namespace a351::corrector::eemd

@@ -49,9 +49,8 @@ TEST_CASE("every instruction set gives the same modes, bit for bit") {
         options.ends = ends;
         for (std::size_t n = 1; n < 400; n += n < 70 ? 1 : 37) {
             std::vector<double> signal = white_noise(n, n);
-            if (n % 3 == 0) {
-                for (double& value : signal) value = std::round(value);  // plateaus
-            }
+            for (double& value : signal)
+                if (n % 3 == 0) value = std::round(value);  // plateaus
             const auto portable = decompose(signal, options, portable_kernels());
             for (const SiftKernels* const kernels : faster) {
                 INFO(kernels->name << ", " << n << " samples");
@@ -89,9 +88,8 @@ TEST_CASE("results are bit-identical in every build") {
     options.ensemble_size = 12;
     options.seed = 4;
     std::uint64_t hash = 0xcbf29ce484222325;  // FNV-1a over 64-bit words
-    for (const auto& component : components_of(eemd(signal, options))) {
+    for (const auto& component : components_of(eemd(signal, options)))
         for (const std::uint64_t word : bits(component)) hash = (hash ^ word) * 0x100000001b3;
-    }
     CHECK(hash == 0xc7fb613011f73776);
 }
 

@@ -20,12 +20,6 @@ Result by_trial(std::span<const double> signal, std::size_t most_extrema, Option
     }
 }
 
-Options small_ensemble() {
-    Options options;
-    options.ensemble_size = 20;
-    return options;
-}
-
 void check_against_trial(std::span<const double> signal, std::size_t most_extrema,
                          const Options& options) {
     const Trend trend = eemd_trend(signal, most_extrema, options);
@@ -66,8 +60,7 @@ TEST_CASE("the trend computed alone is bit-identical with every option") {
 
 TEST_CASE("the trend computed alone is bit-identical on any number of threads") {
     const std::vector<double> signal = mixed_series(450);
-    Options options = small_ensemble();
-    options.ensemble_size = 37;
+    Options options = small_ensemble(37);
     const Trend one = eemd_trend(signal, 7, options);
     for (const int threads : {2, 3, 7}) {
         options.threads = threads;
