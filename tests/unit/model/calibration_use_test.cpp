@@ -5,9 +5,9 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
-#include "tests/support/catch.hpp"
 
 #include "corrector/result/result_files.hpp"
+#include "tests/unit/model/corrections.hpp"
 #include "tests/unit/model/rows_of_day.hpp"
 
 using namespace a351;
@@ -19,8 +19,6 @@ using namespace a351::unit;
 
 namespace {
 
-const MadeUpDay kDay{.placement_mgal = 1.2, .white_mgal = 0.2};
-
 /// Returns the rows of the day with the means of x, and readings for a linear model.
 std::vector<SurveyRow> tilted_rows_of(const DayRecord& day) {
     std::vector<SurveyRow> rows = rows_of(day);
@@ -28,13 +26,13 @@ std::vector<SurveyRow> tilted_rows_of(const DayRecord& day) {
         SurveyRow& row = rows[s];
         const double x_g = day.bins[s * MadeUpDay::kBins].x.value();
         row.record.emplace().x.mean = StandardGravity(x_g);
-        row.acceleration = *row.reference + MilliGal(1838.0 + kDay.x * x_g) -
+        row.acceleration = *row.reference + MilliGal(1838.0 + kScattered.x * x_g) -
                            MilliGal(30.0 * (row.temperature.value() - 42.6));
     }
     return rows;
 }
 
-Calibration calibration(double x_mgal_per_g = kDay.x) {
+Calibration calibration(double x_mgal_per_g = kScattered.x) {
     Calibration known;
     known.serial_number = "7";
     known.program = "a351-correct 0";
@@ -52,10 +50,7 @@ ThermalResponse thermal(const MadeUpDay& day) {
 }
 
 SurveyOptions with(const Calibration& known, const std::string& model) {
-    SurveyOptions options;
-    options.model = model;
-    options.calibration = known;
-    return options;
+    return {.model = model, .calibration = known};
 }
 
 bool has_remark(const SurveyCorrection& result, const std::string& part) {
@@ -69,7 +64,7 @@ bool has_remark(const SurveyCorrection& result, const std::string& part) {
 TEST_CASE("a thermal response is used with twice its errors, axis biases with their own errors",
           "[survey][calibration]") {
     Calibration known = calibration();
-    known.thermal = thermal(kDay);
+    known.thermal = thermal(kScattered);
     const DayPriors priors = day_priors_of(known);
     const DayPriors::Matrix covariance = priors.factor * priors.factor.transpose();
     const auto variance = [&](DayTerm term) {
@@ -85,10 +80,10 @@ TEST_CASE("a thermal response is used with twice its errors, axis biases with th
 
 TEST_CASE("a day agrees with the calibration of its unit and contradicts that of another unit",
           "[survey][calibration]") {
-    const DayRecord day = kDay.record();
+    const DayRecord day = kScattered.record();
     const auto rows = tilted_rows_of(day);
     Calibration known = calibration();
-    known.thermal = thermal(kDay);
+    known.thermal = thermal(kScattered);
     const auto own = correct_with_calibration(rows, with(known, "day"), &day);
     REQUIRE(own.model == "day");
     REQUIRE(own.calibration);
@@ -121,11 +116,12 @@ TEST_CASE("a day agrees with the calibration of its unit and contradicts that of
 
 TEST_CASE("a wrong calibration is contradicted however small its stated errors are",
           "[survey][calibration]") {
-    const DayRecord day = kDay.record();
+    const DayRecord day = kScattered.record();
     const auto rows = tilted_rows_of(day);
     for (const double variance : {221.0, 110.0, 1.0, 0.01}) {
         CAPTURE(variance);
-        Calibration known = calibration(kDay.x + 5000.0);  // 10 mGal where the tilt is 0.1 deg
+        Calibration known =
+            calibration(kScattered.x + 5000.0);  // 10 mGal where the tilt is 0.1 deg
         known.axis_bias->covariance = Eigen::Vector2d(variance, variance).asDiagonal();
         const auto result = correct_with_calibration(rows, with(known, "day"), &day);
         REQUIRE(result.calibration->axis_bias);
@@ -136,10 +132,10 @@ TEST_CASE("a wrong calibration is contradicted however small its stated errors a
 
 TEST_CASE("a calibration is not tested if the day has no information about it",
           "[survey][calibration]") {
-    DayRecord day = kDay.record();
+    DayRecord day = kScattered.record();
     for (DayBin& bin : day.bins) bin.x = StandardGravity(0.0);
     Calibration known = calibration();
-    known.thermal = thermal(kDay);
+    known.thermal = thermal(kScattered);
     const auto result = correct_with_calibration(tilted_rows_of(day), with(known, "day"), &day);
     CHECK_FALSE(result.calibration->axis_bias);
     CHECK(calibration_json(result)["axis_bias"]["contradicted"].is_null());
@@ -150,21 +146,18 @@ TEST_CASE("a calibration is not tested if the day has no information about it",
 
 TEST_CASE("with a calibration one datum is enough for the whole-day model",
           "[survey][calibration]") {
-    const DayRecord day = kDay.record();
+    const DayRecord day = kScattered.record();
     auto rows = tilted_rows_of(day);
-    for (SurveyRow& row : rows)
-        if (row.site != "S0") row.reference.reset();
-    SurveyOptions options = with(calibration(), "auto");
-    const auto result = correct_with_calibration(rows, options, &day);
+    know_only(rows, {"S0"});
+    const auto result = correct_with_calibration(rows, with(calibration(), "auto"), &day);
     CHECK(result.model == "day");
     for (const StationValue& station : result.stations) {
-        const int number = std::stoi(station.site.substr(1));
-        CHECK(station.gravity.value() == Approx(979900.0 + 13.0 * number).epsilon(0.0).margin(6.0));
+        CHECK(station.gravity.value() == Approx(gravity_of(station.site)).epsilon(0.0).margin(6.0));
     }
 }
 
 TEST_CASE("other models use readings that are corrected for tilt", "[survey][calibration]") {
-    const auto rows = tilted_rows_of(kDay.record());
+    const auto rows = tilted_rows_of(kScattered.record());
     const auto result = correct_with_calibration(rows, with(calibration(), "t"), nullptr);
     CHECK(result.score.rms_mgal.value() < 1e-6);
     CHECK(correct_survey(rows, with(calibration(), "t")).score.rms_mgal.value() > 0.5);
@@ -173,33 +166,30 @@ TEST_CASE("other models use readings that are corrected for tilt", "[survey][cal
         CHECK(row.row.acceleration == rows[i].acceleration);
         CHECK(row.difference.value().value() ==
               Approx((rows[i].acceleration - *rows[i].reference).value()));
-        CHECK((row.row.acceleration + row.temperature_correction + row.tilt_correction_or_zero())
-                  .value() == Approx(row.corrected.value()).epsilon(1e-12));
+        CHECK(sum_mgal(row) == Approx(row.corrected.value()).epsilon(1e-12));
     }
     REQUIRE(result.calibration);
     CHECK_FALSE(result.calibration->is_prior);
     CHECK(calibration_json(result)["axis_bias"]["use"] == "fixed");
     CHECK(calibration_json(result)["axis_bias"]["contradicted"].is_null());
     CHECK(calibration_json(result)["thermal"].is_null());
-    SurveyOptions without;
-    without.model = "t";
-    CHECK(calibration_json(correct_survey(rows, without)).is_null());
+    CHECK(calibration_json(correct_survey(rows, by_model("t"))).is_null());
 }
 
 TEST_CASE("a row without the mean of an axis is refused if a bias must be subtracted",
           "[survey][calibration]") {
-    auto rows = tilted_rows_of(kDay.record());
+    auto rows = tilted_rows_of(kScattered.record());
     rows[3].record.reset();
     CHECK_THROWS_WITH(correct_with_calibration(rows, with(calibration(), "t"), nullptr),
                       "calibration: S3 (1) has no mean_x_g; allowed: rows from records");
     Calibration known = calibration();
     known.axis_bias.reset();
-    known.thermal = thermal(kDay);
+    known.thermal = thermal(kScattered);
     CHECK_NOTHROW(correct_with_calibration(rows, with(known, "t"), nullptr));
 }
 
 TEST_CASE("models.csv shows how each score uses the calibration", "[survey][calibration]") {
-    const DayRecord day = kDay.record();
+    const DayRecord day = kScattered.record();
     const auto rows = tilted_rows_of(day);
     const auto uses = [&](const SurveyCorrection& result) {
         std::map<std::string, std::string> of_model;
@@ -222,7 +212,7 @@ TEST_CASE("models.csv shows how each score uses the calibration", "[survey][cali
 
 TEST_CASE("fitted and calibrated axis biases together give one tilt correction",
           "[survey][calibration]") {
-    auto rows = tilted_rows_of(kDay.record());
+    auto rows = tilted_rows_of(kScattered.record());
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const double y_g = 0.001 * static_cast<double>(i * i % 5);
         rows[i].rate_degc_per_h = 0.01 * static_cast<double>(i * i % 3);
@@ -232,8 +222,6 @@ TEST_CASE("fitted and calibrated axis biases together give one tilt correction",
         correct_with_calibration(rows, with(calibration(), "t-rate-drift-axes"), nullptr);
     for (const CorrectedRow& row : result.rows) {
         REQUIRE(row.tilt_correction);
-        const MilliGal sum = row.row.reduced() + row.temperature_correction + row.rate_correction +
-                             row.drift_correction + *row.tilt_correction;
-        CHECK(sum.value() == Approx(row.corrected.value()).epsilon(1e-12));
+        CHECK(sum_mgal(row) == Approx(row.corrected.value()).epsilon(1e-12));
     }
 }

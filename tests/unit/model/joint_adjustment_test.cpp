@@ -22,29 +22,20 @@ struct Corrected {
 
 Corrected corrected(std::uint64_t seed, const std::string& model = "day",
                     double moved_reference_mgal = 0.0) {
-    const MadeUpDay made_up{.placement_mgal = 1.2, .white_mgal = 0.2};
-    Corrected one{made_up.record(seed), {}};
+    Corrected one{kScattered.record(seed), {}};
     auto rows = rows_of(one.day);
     for (SurveyRow& row : rows) {
         if (row.site == "S9") row.reference.reset();
         if (row.site == "S4") row.reference = *row.reference + MilliGal(moved_reference_mgal);
         if (row.site == "S7") row.is_flagged = true;
     }
-    SurveyOptions options;
-    options.model = model;
-    one.result = correct_survey(rows, options, model == "day" ? &one.day : nullptr);
+    one.result = correct_survey(rows, {.model = model}, model == "day" ? &one.day : nullptr);
     return one;
 }
 
 Corrected a_day_later(Corrected one) {
-    const auto day = std::chrono::hours(24);
-    const TimeSeries<DegC>& degc = one.day.temperature.series;
-    one.day.temperature.series = TimeSeries<DegC>(degc.start() + day, degc.rate(), degc.values());
-    for (DayBin& bin : one.day.bins) {
-        bin.time += day;
-        for (UtcTime& time : bin.times) time += day;
-    }
-    for (CorrectedRow& row : one.result.rows) row.row.time += day;
+    one.day = later(std::move(one.day), kOneDay);
+    for (CorrectedRow& row : one.result.rows) row.row.time += kOneDay;
     return one;
 }
 
@@ -53,18 +44,15 @@ Corrected a_day_later(Corrected one) {
 TEST_CASE("two units at one time are one box, and each station has one gravity",
           "[survey][joint]") {
     const Corrected a = corrected(1), b = corrected(2);
-    const auto joint =
-        adjust_jointly({{"a", "1", &a.result, &a.day}, {"b", "2", &b.result, &b.day}});
-    REQUIRE(std::holds_alternative<JointAdjustment>(joint));
-    const auto& adjustment = std::get<JointAdjustment>(joint);
+    const auto adjustment = std::get<JointAdjustment>(
+        adjust_jointly({{"a", "1", &a.result, &a.day}, {"b", "2", &b.result, &b.day}}));
     CHECK(adjustment.units.size() == 2);
     CHECK(adjustment.share);
     // S7 has marked readings only.
     REQUIRE(adjustment.stations.size() == 10);
     CHECK(adjustment.differences.size() == 45);
     for (const JointGravity& station : adjustment.stations) {
-        const auto number = static_cast<std::size_t>(std::stoi(station.site.substr(1)));
-        CHECK(std::abs(station.gravity.value() - MadeUpDay::gravity_mgal(number)) <
+        CHECK(std::abs(station.gravity.value() - gravity_of(station.site)) <
               4.0 * station.u.value());
         CHECK_FALSE(station.is_in_sample);
     }
@@ -88,11 +76,9 @@ TEST_CASE("a day of another model takes part with white noise", "[survey][joint]
     const Corrected day = corrected(1);
     for (const std::string model : {"t-drift", "network"}) {
         const Corrected other = a_day_later(corrected(2, model));
-        const auto joint =
+        const auto adjustment = std::get<JointAdjustment>(
             adjust_jointly({{"a", "1", &day.result, &day.day},
-                            {"b", model == "network" ? "2" : "1", &other.result, nullptr}});
-        REQUIRE(std::holds_alternative<JointAdjustment>(joint));
-        const auto& adjustment = std::get<JointAdjustment>(joint);
+                            {"b", model == "network" ? "2" : "1", &other.result, nullptr}}));
         CHECK(adjustment.units.size() == 1);
         CHECK_FALSE(adjustment.surveys.front().coefficients.empty());
         CHECK(adjustment.surveys.back().coefficients.empty());
@@ -104,8 +90,7 @@ TEST_CASE("a day of another model takes part with white noise", "[survey][joint]
                 *std::ranges::find(day.result.stations, station.site, &StationValue::site);
             squares += std::pow(station.u.value(), 2);
             squares_alone += std::pow(alone.u_left_out->value(), 2);
-            const auto number = static_cast<std::size_t>(std::stoi(station.site.substr(1)));
-            CHECK(std::abs(station.gravity.value() - MadeUpDay::gravity_mgal(number)) <
+            CHECK(std::abs(station.gravity.value() - gravity_of(station.site)) <
                   4.0 * station.u.value());
         }
         CHECK(squares < squares_alone);
@@ -114,14 +99,12 @@ TEST_CASE("a day of another model takes part with white noise", "[survey][joint]
 
 TEST_CASE("days of other models alone are adjusted together", "[survey][joint]") {
     const Corrected a = corrected(1, "t-drift"), b = a_day_later(corrected(2, "network"));
-    const auto joint = adjust_jointly({{"a", "1", &a.result}, {"b", "2", &b.result}});
-    REQUIRE(std::holds_alternative<JointAdjustment>(joint));
-    const auto& adjustment = std::get<JointAdjustment>(joint);
+    const auto adjustment =
+        std::get<JointAdjustment>(adjust_jointly({{"a", "1", &a.result}, {"b", "2", &b.result}}));
     CHECK(adjustment.units.empty());
     CHECK(adjustment.differences.size() == 45);
     for (const JointGravity& station : adjustment.stations) {
-        const auto number = static_cast<std::size_t>(std::stoi(station.site.substr(1)));
-        CHECK(std::abs(station.gravity.value() - MadeUpDay::gravity_mgal(number)) <
+        CHECK(std::abs(station.gravity.value() - gravity_of(station.site)) <
               4.0 * station.u.value());
     }
 }

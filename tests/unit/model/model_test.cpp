@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include "tests/support/catch.hpp"
 
 #include "corrector/model/linear_models.hpp"
-#include "corrector/model/survey_correction.hpp"
 #include "protocol/core/units.hpp"
 #include "protocol/text/aligned_text.hpp"
-#include "tests/unit/model/survey_rows.hpp"
+#include "tests/unit/model/corrections.hpp"
 
 using namespace a351::corrector;
 using namespace a351;
@@ -28,9 +26,7 @@ bool needs_records(const Model& model) {
 }
 
 SurveyOptions options_for(const std::vector<SurveyRow>& rows) {
-    SurveyOptions options;
-    options.base = rows.front().site;
-    return options;
+    return {.base = rows.front().site};
 }
 
 }  // namespace
@@ -49,7 +45,7 @@ TEST_CASE("every model has a name of its own, by which it is found", "[survey][m
 TEST_CASE("every model of averages gives rows whose corrections add up to the corrected value",
           "[survey][model]") {
     auto rows = made_up::day();
-    rows[2].acceleration = rows[2].acceleration + MilliGal(1.5);
+    add(rows[2], 1.5);
     const SurveyOptions options = options_for(rows);
     const SurveyProblem problem{rows, options, nullptr};
     for (const Model& model : models()) {
@@ -58,10 +54,7 @@ TEST_CASE("every model of averages gives rows whose corrections add up to the co
         const auto fit = std::get<model::Fit>(model.fit(problem, all_of(rows)));
         REQUIRE(fit.rows.size() == rows.size());
         for (const CorrectedRow& row : fit.rows) {
-            const MilliGal sum = row.row.reduced() + row.temperature_correction +
-                                 row.rate_correction + row.drift_correction +
-                                 row.scale_correction.value_or(MilliGal(0.0));
-            CHECK(sum.value() == Approx(row.corrected.value()).epsilon(0).margin(1e-8));
+            CHECK(sum_mgal(row) == Approx(row.corrected.value()).epsilon(0).margin(1e-8));
         }
         CHECK(fit.score.model == model.name);
         CHECK(fit.stations.size() == station_names(rows).size());
@@ -157,42 +150,36 @@ TEST_CASE("a linear model with a prior of the scale finds a station whose gravit
     auto rows = made_up::day();
     SurveyRow& far = rows[8];  // S7, once
     const MilliGal truth = *far.reference + MilliGal(kFar_mgal);
-    far.acceleration = far.acceleration + MilliGal(kFar_mgal);
+    add(far, kFar_mgal);
     for (SurveyRow& row : rows)
-        row.acceleration = row.acceleration +
-                           MilliGal(kScaleError * (&row == &far ? truth : *row.reference).value()) -
-                           MilliGal(kScaleError * kMilliGalPerStandardGravity);
+        add(row, kScaleError * ((&row == &far ? truth : *row.reference).value() -
+                                kMilliGalPerStandardGravity));
     far.reference.reset();
     for (std::size_t i = 0; i < rows.size(); ++i)  // scatter, so that there is a standard error
-        rows[i].acceleration = rows[i].acceleration + MilliGal(i % 2 == 0 ? 0.01 : -0.01);
+        add(rows[i], i % 2 == 0 ? 0.01 : -0.01);
     SurveyOptions options = options_for(rows);
     options.model = "t-rate-drift";
-    const auto at_far = [&](const SurveyCorrection& result) {
-        return *std::ranges::find(result.stations, "S7", &StationValue::site);
-    };
     const auto without = correct_survey(rows, options);
     CHECK(without.scales.empty());
-    CHECK((at_far(without).gravity - truth).value() > 1.0);
+    CHECK((station(without, "S7").gravity - truth).value() > 1.0);
 
     set_prior(options.priors, "test", adjustment::kScale, {1.0 + kScaleError, kPriorSd});
     const auto with = correct_survey(rows, options);
     REQUIRE(with.scales.size() == 1);
     CHECK(with.scales[0].value == Approx(1.0 + kScaleError).epsilon(0).margin(1e-4));
-    CHECK((at_far(with).gravity - truth).value() == Approx(0.0).margin(0.1));
+    CHECK((station(with, "S7").gravity - truth).value() == Approx(0.0).margin(0.1));
     CHECK(with.coefficients.back().name == adjustment::kScale);
     CHECK(with.coefficients.back().value == with.scales[0].value);
     for (const CorrectedRow& row : with.rows) {
         CHECK(row.scale_correction);
-        const MilliGal sum = row.row.reduced() + row.temperature_correction + row.rate_correction +
-                             row.drift_correction + *row.scale_correction;
-        CHECK(sum.value() == Approx(row.corrected.value()).margin(1e-6));
+        CHECK(sum_mgal(row) == Approx(row.corrected.value()).margin(1e-6));
     }
 
     // The far station's error is mostly that of the scale.
     options.priors.reading_sd_mgal = 0.01;
     set_prior(options.priors, "test", adjustment::kScale, {1.0 + kScaleError, 1e-6});
-    const double held = at_far(correct_survey(rows, options)).u_gravity.value().value();
+    const double held = station(correct_survey(rows, options), "S7").u_gravity.value().value();
     set_prior(options.priors, "test", adjustment::kScale, {1.0 + kScaleError, kPriorSd});
-    const double loose = at_far(correct_survey(rows, options)).u_gravity.value().value();
+    const double loose = station(correct_survey(rows, options), "S7").u_gravity.value().value();
     CHECK(loose > 2.0 * held);
 }

@@ -24,4 +24,9 @@ inline std::vector<reading::SurveyRow> rows_of(const reading::DayRecord& day) {
     return rows;
 }
 
+/// Returns the true gravity of a site of these rows.
+inline double gravity_of(const std::string& site) {
+    return whole_day::MadeUpDay::gravity_mgal(static_cast<std::size_t>(std::stoi(site.substr(1))));
+}
+
 }  // namespace a351::corrector::model

@@ -1,9 +1,7 @@
 #include <cmath>
 #include <random>
-#include "tests/support/catch.hpp"
 
-#include "corrector/model/survey_correction.hpp"
-#include "tests/unit/model/survey_rows.hpp"
+#include "tests/unit/model/corrections.hpp"
 
 using namespace a351;
 using namespace a351::corrector::model;
@@ -16,13 +14,12 @@ std::vector<SurveyRow> noisy_day(std::uint64_t seed) {
     auto rows = made_up::day();
     std::mt19937_64 random(seed);
     std::normal_distribution<double> normal;
-    for (SurveyRow& row : rows) row.acceleration = row.acceleration + MilliGal(normal(random));
+    for (SurveyRow& row : rows) add(row, normal(random));
     return rows;
 }
 
 SurveyCorrection corrected(const std::vector<SurveyRow>& rows, const std::string& model) {
-    SurveyOptions options;
-    options.model = model;
+    SurveyOptions options = by_model(model);
     options.priors.reading_sd_mgal = 1.0;
     return correct_survey(rows, options);
 }

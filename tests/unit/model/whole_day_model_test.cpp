@@ -1,9 +1,8 @@
 #include "corrector/model/whole_day_model.hpp"
 
 #include <cmath>
-#include "tests/support/catch.hpp"
 
-#include "corrector/model/survey_correction.hpp"
+#include "tests/unit/model/corrections.hpp"
 #include "tests/unit/model/rows_of_day.hpp"
 
 using namespace a351;
@@ -12,14 +11,6 @@ using namespace a351::corrector::reading;
 using namespace a351::corrector::whole_day;
 
 namespace {
-
-SurveyOptions by_model(const std::string& model) {
-    SurveyOptions options;
-    options.model = model;
-    return options;
-}
-
-const MadeUpDay kScattered{.placement_mgal = 1.2, .white_mgal = 0.2};
 
 /// Student's t with 10 degrees of freedom at 0.05 / 26: 13 readings of a clean day are below it.
 constexpr double kLimit = 3.74;
@@ -37,19 +28,26 @@ TEST_CASE("auto chooses the whole-day model if the records allow it", "[survey][
     CHECK(correct_survey(rows, by_model("auto"), nullptr).model != "day");
 }
 
-TEST_CASE("corrections of the whole-day model add up to the corrected value of each row",
-          "[survey][day]") {
+TEST_CASE(
+    "corrections of the whole-day model add up to the corrected value of each row, and a row "
+    "of a station occupied twice is less certain than the station",
+    "[survey][day]") {
     const DayRecord day = kScattered.record();
     const auto result = correct_survey(rows_of(day), by_model("day"), &day);
     for (const CorrectedRow& row : result.rows) {
-        double sum = (row.row.reduced() + row.temperature_correction + row.rate_correction +
-                      row.drift_correction)
-                         .value();
-        sum += row.tilt_correction.value().value() +
-               row.as<WholeDayRow>()->flicker_correction.value() +
-               row.scale_correction.value().value();
-        CHECK(sum == Approx(row.corrected.value()).epsilon(1e-12));
+        CHECK(row.tilt_correction);
+        CHECK(row.scale_correction);
+        CHECK(row.as<WholeDayRow>() != nullptr);
+        CHECK(sum_mgal(row) == Approx(row.corrected.value()).epsilon(1e-12));
     }
+    for (const StationValue& station : result.stations)
+        for (const CorrectedRow& row : result.rows) {
+            if (row.row.site != station.site) continue;
+            if (station.row_count == 1)
+                CHECK(*row.u_corrected == *station.u_gravity);
+            else
+                CHECK(row.u_corrected->value() > 1.1 * station.u_gravity->value());
+        }
 }
 
 TEST_CASE("the value predicted without a station is the value found when its reference is hidden",
@@ -70,11 +68,7 @@ TEST_CASE("the value predicted without a station is the value found when its ref
                   Approx(all.rows[i].u_corrected->value()).epsilon(0.01));
             CHECK_FALSE(result.rows[i].residual);
         }
-        const auto station =
-            std::find_if(result.stations.begin(), result.stations.end(),
-                         [&](const StationValue& value) { return value.site == site; });
-        CHECK(station->gravity.value() ==
-              Approx(MadeUpDay::gravity_mgal(static_cast<std::size_t>(site[1] - '0'))).margin(4.0));
+        CHECK(station(result, site).gravity.value() == Approx(gravity_of(site)).margin(4.0));
     }
 }
 
@@ -93,8 +87,9 @@ TEST_CASE("a flagged row has a value and no influence on the others", "[survey][
     CHECK(result.row_sets.back().scores.back().row_count == rows.size());
 }
 
-TEST_CASE("a blunder alone has a large studentised residual, and a clean day has none",
-          "[survey][day]") {
+TEST_CASE(
+    "a blunder alone has a large studentised residual, in the fit or not, and a clean day has none",
+    "[survey][day]") {
     DayRecord day = kScattered.record();
     const auto large = [&] {
         const auto result = correct_survey(rows_of(day), by_model("day"), &day);
@@ -104,9 +99,12 @@ TEST_CASE("a blunder alone has a large studentised residual, and a clean day has
         return found;
     };
     CHECK(large().empty());
-    for (DayBin& bin : day.bins)
-        if (bin.set_up == 8) bin.reading = bin.reading + MilliGal(15.0);
+    add(day, 8, 15.0);
     CHECK(large() == std::vector<std::size_t>{8});
+
+    auto rows = rows_of(day);
+    rows[8].is_flagged = true;
+    CHECK(correct_survey(rows, by_model("day"), &day).rows[8].studentised_residual.value() > 5.0);
 }
 
 TEST_CASE("excluded rows do not influence each other", "[survey][day]") {
@@ -117,10 +115,6 @@ TEST_CASE("excluded rows do not influence each other", "[survey][day]") {
     const auto result = correct_survey(rows, by_model("day"), &day);
     CHECK(result.score.row_count == rows.size() - 2);
     CHECK(result.rows[1].u_corrected);
-    const auto station = [](const SurveyCorrection& survey, const std::string& site) {
-        return *std::find_if(survey.stations.begin(), survey.stations.end(),
-                             [&](const StationValue& value) { return value.site == site; });
-    };
     CHECK(station(result, "S1").is_flagged_only);
     CHECK(station(result, "S1").row_count == 2);
     rows[12].is_excluded = false;
@@ -130,8 +124,7 @@ TEST_CASE("excluded rows do not influence each other", "[survey][day]") {
     CHECK(station(one, "S1").gravity == one.rows[12].corrected);
     rows[12].is_excluded = true;
     DayRecord other = day;
-    for (DayBin& bin : other.bins)
-        if (bin.set_up == 12) bin.reading = bin.reading + MilliGal(500.0);
+    add(other, 12, 500.0);
     const auto changed = correct_survey(rows, by_model("day"), &other);
     CHECK(changed.rows[1].corrected.value() ==
           Approx(result.rows[1].corrected.value()).epsilon(0.0).margin(0.01));
@@ -151,30 +144,6 @@ TEST_CASE("if all rows are flagged, the whole-day model is scored only with the 
     const auto result = correct_survey(rows, options, &day);
     CHECK(result.row_sets.front().scores.back().model != "day");
     CHECK(result.row_sets.back().scores.back().model == "day");
-}
-
-TEST_CASE("a row of a station occupied twice is less certain than the station", "[survey][day]") {
-    const DayRecord day = kScattered.record();
-    const auto result = correct_survey(rows_of(day), by_model("day"), &day);
-    for (const StationValue& station : result.stations)
-        for (const CorrectedRow& row : result.rows) {
-            if (row.row.site != station.site) continue;
-            if (station.row_count == 1)
-                CHECK(*row.u_corrected == *station.u_gravity);
-            else
-                CHECK(row.u_corrected->value() > 1.1 * station.u_gravity->value());
-        }
-}
-
-TEST_CASE("a flagged blunder has a large studentised residual in the fit without it",
-          "[survey][day]") {
-    DayRecord day = kScattered.record();
-    for (DayBin& bin : day.bins)
-        if (bin.set_up == 5) bin.reading = bin.reading + MilliGal(15.0);
-    auto rows = rows_of(day);
-    rows[5].is_flagged = true;
-    const auto result = correct_survey(rows, by_model("day"), &day);
-    CHECK(result.rows[5].studentised_residual.value() > 5.0);
 }
 
 TEST_CASE("the reason why auto does not use the whole-day model is reported", "[survey][day]") {
@@ -199,8 +168,7 @@ TEST_CASE("auto says what the whole-day model was compared with, or that nothing
     REQUIRE(all.model == "day");
     CHECK_THAT(all.remarks.at(0), ContainsSubstring("the whole-day model is used: its error at "
                                                     "stations left out is"));
-    for (SurveyRow& row : rows)
-        if (row.site != "S0") row.reference.reset();
+    know_only(rows, {"S0"});
     const auto one = correct_survey(rows, by_model("auto"), &day);
     REQUIRE(one.model == "day");
     CHECK_THAT(one.remarks.at(0),
@@ -212,17 +180,11 @@ TEST_CASE("the uncertainties of a day that the model does not fit are enlarged",
     DayRecord day = kScattered.record();
     const auto rows = rows_of(day);
     const auto fits = correct_survey(rows, by_model("day"), &day);
-    const auto remark_of = [](const SurveyCorrection& result) {
-        std::string text;
-        for (const std::string& remark : result.remarks)
-            if (remark.starts_with("the model does not fit this day")) text = remark;
-        return text;
-    };
-    CHECK(remark_of(fits).empty());
-    for (DayBin& bin : day.bins)
-        if (bin.set_up == 5) bin.reading = bin.reading + MilliGal(25.0);
+    CHECK(remark(fits, "the model does not fit this day").empty());
+    add(day, 5, 25.0);
     const auto misfit = correct_survey(rows, by_model("day"), &day);
-    CHECK_THAT(remark_of(misfit), ContainsSubstring("differences are enlarged by "));
+    CHECK_THAT(remark(misfit, "the model does not fit this day"),
+               ContainsSubstring("differences are enlarged by "));
     double squares = 0.0;
     for (const CorrectedRow& row : misfit.rows) squares += std::pow(*row.studentised_residual, 2);
     const double factor = misfit.as<WholeDayPart>()->uncertainty_factor;
@@ -243,12 +205,9 @@ TEST_CASE("a bad reading has a large studentised residual although only four sta
           "[survey][day]") {
     DayRecord day = kScattered.record();
     auto rows = rows_of(day);
-    for (SurveyRow& row : rows)
-        if (const int number = std::stoi(row.site.substr(1)); number % 3 != 0 || number > 9)
-            row.reference.reset();
+    know_only(rows, {"S0", "S3", "S6", "S9"});
     for (const double error_mgal : {0.0, 30.0}) {
-        for (DayBin& bin : day.bins)
-            if (bin.set_up == 6) bin.reading = bin.reading + MilliGal(error_mgal);
+        add(day, 6, error_mgal);
         const auto result = correct_survey(rows, by_model("day"), &day);
         CHECK(result.score.dof == 0);
         const double t = std::abs(result.rows[6].studentised_residual.value());
@@ -283,10 +242,9 @@ TEST_CASE("one reading at a known station is enough for the whole-day model", "[
         CHECK(result.score.row_count == 1);
         CHECK_FALSE(result.score.loso_mgal);
         for (const StationValue& station : result.stations) {
-            const auto number = static_cast<std::size_t>(std::stoi(station.site.substr(1)));
-            const double error = station.gravity.value() - MadeUpDay::gravity_mgal(number);
             if (station.reference) continue;
-            CHECK(std::abs(error) < 3.0 * station.u_gravity->value());
+            CHECK(std::abs(station.gravity.value() - gravity_of(station.site)) <
+                  3.0 * station.u_gravity->value());
             CHECK(station.u_gravity->value() < 8.0);
         }
     }
@@ -374,8 +332,7 @@ TEST_CASE("in two faces the prior of a calibrated scale is wider", "[survey][day
         options.calibration.emplace();
         options.calibration->scale = {1.0, 1e-5};
         const auto result = correct_survey(rows_of(day), options, &day);
-        const auto scale =
-            std::ranges::find(result.coefficients, "scale", &Coefficient::name)->prior.value();
+        const auto scale = coefficient(result, "scale").prior.value();
         CHECK(scale.sd == result.scales.at(0).prior.sd);
         return scale.sd;
     };
@@ -394,10 +351,7 @@ TEST_CASE("a report says whether turning the box over pays on this unit", "[surv
         for (std::size_t s = 0; s < rows.size(); ++s)
             rows[s].face = day.bins[s * MadeUpDay::kBins].face < 0.0 ? -1 : 1;
         const auto result = correct_survey(rows, by_model("day"), &day);
-        for (const text::Message& remark : result.remarks)
-            if (remark.english().starts_with("8 of 16 set-ups were turned over"))
-                return remark.english();
-        return std::string("no remark");
+        return remark(result, "8 of 16 set-ups were turned over");
     };
     CHECK_THAT(remark_with(0.2), EndsWith(": turning pays on this unit"));
     CHECK_THAT(remark_with(0.7), EndsWith("which turning does not cancel"));

@@ -53,18 +53,15 @@ SurveyCorrection corrected_by_day(const DayRecord& day) {
         row.reference = MilliGal(MadeUpDay::gravity_mgal(s));
         rows.push_back(row);
     }
-    SurveyOptions options;
-    options.model = "day";
-    return correct_survey(rows, options, &day);
+    return correct_survey(rows, {.model = "day"}, &day);
 }
 
 }  // namespace
 
 TEST_CASE("the corrections of the whole-day model add up to the corrected value, with the constant",
           "[report][readings]") {
-    const MadeUpDay made{.placement_mgal = 1.2, .white_mgal = 0.2};
     pugi::xml_document document;
-    add_corrections(document.append_child("body"), corrected_by_day(made.record()));
+    add_corrections(document.append_child("body"), corrected_by_day(kScattered.record()));
     const std::string caption = document.select_node("//figcaption").node().child_value();
     std::smatch constant;
     REQUIRE(std::regex_search(caption, constant, std::regex("constant of (-?[0-9.]+) ")));
@@ -84,8 +81,7 @@ TEST_CASE("the corrections of the whole-day model add up to the corrected value,
 
 TEST_CASE("t of the whole-day model is the error with the station left out over its u",
           "[report][readings]") {
-    const MadeUpDay made{.placement_mgal = 1.2, .white_mgal = 0.2};
-    for (auto line : readings_of(corrected_by_day(made.record()))) {
+    for (auto line : readings_of(corrected_by_day(kScattered.record()))) {
         const auto value = [&line](const char* title) { return std::stod(line.at(title)); };
         // All but t are rounded to 0.1.
         CHECK((value("Left out") - value("Reference")) / value("u") ==
@@ -94,8 +90,7 @@ TEST_CASE("t of the whole-day model is the error with the station left out over 
 }
 
 TEST_CASE("the table of the whole-day model shows which time it averages", "[report][readings]") {
-    const MadeUpDay made{.placement_mgal = 1.2, .white_mgal = 0.2};
-    DayRecord day = made.record();
+    DayRecord day = kScattered.record();
     std::erase_if(day.bins, [](const DayBin& bin) {
         return bin.set_up == 2 && bin.time < MadeUpDay::start() + std::chrono::minutes(183);
     });
@@ -108,18 +103,14 @@ TEST_CASE("the table of the whole-day model shows which time it averages", "[rep
 }
 
 TEST_CASE("a table of given averages has no columns of records", "[report][readings]") {
-    SurveyOptions options;
-    options.model = "t";
-    const auto lines = readings_of(correct_survey(made_up::day(), options));
+    const auto lines = readings_of(correct_survey(made_up::day(), {.model = "t"}));
     REQUIRE(lines.size() == 12);
     for (const char* const title : {"Averaged UTC", "Min used", "Left out"})
         CHECK_FALSE(lines[0].contains(title));
 }
 
 TEST_CASE("an occupation without a value is listed in time order", "[report][readings]") {
-    SurveyOptions options;
-    options.model = "t";
-    SurveyCorrection result = correct_survey(made_up::day(), options);
+    SurveyCorrection result = correct_survey(made_up::day(), {.model = "t"});
     const UtcTime start = result.rows[2].row.time - std::chrono::minutes(9);
     add_left_out(result, {{"S9", 2, start, start, "no samples"}});
     const auto lines = readings_of(result);

@@ -13,16 +13,6 @@ using namespace a351::corrector::whole_day;
 
 namespace {
 
-const MadeUpDay kScatteredDay{.placement_mgal = 1.2, .white_mgal = 0.2};
-
-/// Returns the stations of the made-up day without the references of some.
-std::vector<DayStation> stations_without(std::initializer_list<std::size_t> numbers) {
-    auto stations = MadeUpDay::stations();
-    for (DayStation& station : stations)
-        if (std::ranges::find(numbers, station.number) != numbers.end()) station.gravity.reset();
-    return stations;
-}
-
 double squares(const std::array<double, kErrorSources>& parts_mgal) {
     return std::inner_product(parts_mgal.begin(), parts_mgal.end(), parts_mgal.begin(), 0.0);
 }
@@ -30,7 +20,7 @@ double squares(const std::array<double, kErrorSources>& parts_mgal) {
 }  // namespace
 
 TEST_CASE("a difference is that of a fit without both references", "[day]") {
-    const auto record = kScatteredDay.record();
+    const auto record = kScattered.record();
     const auto stations = MadeUpDay::stations();
     const DayAdjustment system = adjust_day({&record, stations}).value();
     const FittedDay all(system);
@@ -55,7 +45,7 @@ TEST_CASE("a difference is that of a fit without both references", "[day]") {
 }
 
 TEST_CASE("the correlation of all stations is one of a covariance", "[day]") {
-    const auto record = kScatteredDay.record();
+    const auto record = kScattered.record();
     const auto stations = stations_without({3, 9});
     const DayAdjustment system = adjust_day({&record, stations}).value();
     const FittedDay fit(system);
@@ -71,7 +61,7 @@ TEST_CASE("the correlation of all stations is one of a covariance", "[day]") {
 }
 
 TEST_CASE("the only reference stays held, and differences do not need it", "[day]") {
-    const auto record = kScatteredDay.record();
+    const auto record = kScattered.record();
     auto stations = stations_without({1, 2, 3, 4, 5, 6, 7, 8, 9, 10});
     const DayAdjustment system = adjust_day({&record, stations}).value();
     const FittedDay fit(system);
@@ -93,7 +83,7 @@ TEST_CASE("the only reference stays held, and differences do not need it", "[day
 }
 
 TEST_CASE("the sources of an uncertainty add up to it", "[day]") {
-    const auto record = kScatteredDay.record();
+    const auto record = kScattered.record();
     const FittedDay fit = fit_day(record, stations_without({3, 9})).value();
     for (const std::size_t number : {3U, 9U}) {
         const GravityEstimate& gravity = fit.gravity_mgal[number];
@@ -109,7 +99,7 @@ TEST_CASE("the sources of an uncertainty add up to it", "[day]") {
 }
 
 TEST_CASE("a reference with an uncertainty gives way to the readings", "[day]") {
-    const auto record = kScatteredDay.record();
+    const auto record = kScattered.record();
     auto stations = MadeUpDay::stations();
     constexpr double kWrong_mgal = 20.0;
     for (DayStation& station : stations)
@@ -127,7 +117,7 @@ TEST_CASE("a reference with an uncertainty gives way to the readings", "[day]") 
 
 TEST_CASE("a gravity follows the references and the scale's prior as its shared errors say",
           "[day]") {
-    const auto record = kScatteredDay.record();
+    const auto record = kScattered.record();
     auto stations = stations_without({2, 3, 4, 5, 6, 7, 8, 9, 10});
     for (DayStation& station : stations) station.u_gravity = MilliGal(2.0);
     DayPriors priors = usual_day_priors();
@@ -162,7 +152,7 @@ TEST_CASE("the errors of the noise cover its scatter", "[day]") {
     double sum = 0.0;
     constexpr int kDays = 20;
     for (std::uint64_t seed = 1; seed <= kDays; ++seed) {
-        const FittedDay fit = fit_day(kScatteredDay.record(seed), MadeUpDay::stations()).value();
+        const FittedDay fit = fit_day(kScattered.record(seed), MadeUpDay::stations()).value();
         REQUIRE(fit.noise_log_errors);
         CHECK(fit.noise_log_errors->front() > 0.1);
         CHECK(fit.noise_log_errors->front() < 0.5);

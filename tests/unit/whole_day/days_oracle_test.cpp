@@ -48,17 +48,11 @@ struct RandomDays {
 
 /// Returns a made-up day of a few bins, a number of days later; some days are in two faces.
 std::unique_ptr<DayRecord> day_of(std::uint64_t seed, std::size_t bins_of_set_up, int days) {
-    auto record = std::make_unique<DayRecord>(
-        MadeUpDay{.placement_mgal = 1.2, .white_mgal = 0.2}.record(seed));
-    const auto shift = std::chrono::hours(24 * days);
-    auto& series = record->temperature.series;
-    series = TimeSeries<DegC>(series.start() + shift, series.rate(), series.values());
+    auto record = std::make_unique<DayRecord>(later(kScattered.record(seed), days * kOneDay));
     std::vector<DayBin> kept;
     for (std::size_t i = 0; i < record->bins.size(); ++i) {
         if (i % MadeUpDay::kBins >= bins_of_set_up) continue;
         DayBin bin = record->bins[i];
-        bin.time += shift;
-        for (UtcTime& time : bin.times) time += shift;
         if (seed % 3 == 0) bin.face = (bin.set_up + seed) % 4 < 2 ? 1.0 : -1.0;
         bin.y = StandardGravity(0.001 * std::sin(1.7 * static_cast<double>(bin.set_up + seed)));
         kept.push_back(std::move(bin));
@@ -404,11 +398,10 @@ void compare(const RandomDays& days, bool has_lags, Worst& worst) {
     };
     const Dense::Solution all = dense.solve(lacking(adjustment, {}));
     // Estimates are (1 + k) times their distance from the base.
-    const double scale = surveys.empty()
-                             ? 1.0
-                             : 1.0 + adjustment.fit(surveys.size() - 1)
-                                         .coefficients.at(static_cast<std::size_t>(DayTerm::scale))
-                                         .value;
+    const double scale =
+        surveys.empty()
+            ? 1.0
+            : 1.0 + coefficient(adjustment.fit(surveys.size() - 1), DayTerm::scale).value;
     std::vector<std::size_t> held;
     for (std::size_t site = 0; site < MadeUpDay::kSites; ++site) {
         if (!dense.has(site)) continue;

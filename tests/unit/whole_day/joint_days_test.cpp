@@ -19,31 +19,10 @@ namespace {
 constexpr std::array<std::size_t, 3> kUnknown{3, 5, 9};
 
 /// Returns the stations of the made-up day with three of them unknown.
-std::vector<DayStation> some_known() {
-    auto stations = MadeUpDay::stations();
-    for (DayStation& station : stations)
-        if (std::ranges::find(kUnknown, station.number) != kUnknown.end()) station.gravity.reset();
-    return stations;
-}
+std::vector<DayStation> some_known() { return stations_without({3, 5, 9}); }
 
-DaySurvey survey_of(const DayRecord& record, std::size_t unit,
-                    std::vector<DayStation> stations = some_known()) {
-    std::vector<std::size_t> numbers(MadeUpDay::kSites);
-    std::iota(numbers.begin(), numbers.end(), 0);
-    return {&record, std::move(stations), usual_day_priors(), numbers, unit};
-}
-
-/// Returns the record a number of days later.
-DayRecord later(DayRecord record, int days) {
-    const auto shift = std::chrono::hours(24 * days);
-    record.temperature.series =
-        TimeSeries<DegC>(record.temperature.series.start() + shift,
-                         record.temperature.series.rate(), record.temperature.series.values());
-    for (DayBin& bin : record.bins) {
-        bin.time += shift;
-        for (UtcTime& time : bin.times) time += shift;
-    }
-    return record;
+DaySurvey survey_of(const DayRecord& record, std::size_t unit) {
+    return corrector::whole_day::survey_of(record, unit, some_known());
 }
 
 /// Returns the records of a box of sensors: a share of the placement's variance is common.
@@ -170,10 +149,10 @@ TEST_CASE("a day in one face and one in two have the same slopes", "[day][joint]
     // Half of the response acts on the scale, which the day in one face cannot see.
     MadeUpDay two{.has_two_faces = true, .scale_share = 0.5}, one = two;
     one.has_two_faces = false;
-    const DayRecord a = two.record(11), b = later(one.record(12), 1);
+    const DayRecord a = two.record(11), b = later(one.record(12), kOneDay);
     const DayAdjustment joint = adjust_days({survey_of(a, 0), survey_of(b, 0)});
     for (const std::size_t survey : {0U, 1U})
-        CHECK(joint.fit(survey).coefficients.at(static_cast<std::size_t>(DayTerm::level)).value ==
+        CHECK(coefficient(joint.fit(survey), DayTerm::level).value ==
               Approx(two.level).margin(0.1));
     CHECK(joint.fit(0).on_scale.at(0).value == Approx(0.5 * two.level).margin(0.1));
     CHECK(joint.fit(1).on_scale.empty());
@@ -182,22 +161,19 @@ TEST_CASE("a day in one face and one in two have the same slopes", "[day][joint]
 }
 
 TEST_CASE("days of one unit share its response, and have their own constants", "[day][joint]") {
-    const MadeUpDay first{.placement_mgal = 1.2, .white_mgal = 0.2};
-    MadeUpDay second = first;
+    MadeUpDay second = kScattered;
     second.constant += 400.0;
     second.drift = -0.7;
-    const DayRecord a = first.record(11), b = later(second.record(12), 1);
+    const DayRecord a = kScattered.record(11), b = later(second.record(12), kOneDay);
     const DayAdjustment joint = adjust_days({survey_of(a, 0), survey_of(b, 0)});
     const FittedDay alone = fit_day(a, some_known()).value(),
                     other = fit_day(b, some_known()).value();
-    const auto level = static_cast<std::size_t>(DayTerm::level);
-    const auto constant = static_cast<std::size_t>(DayTerm::constant);
-    CHECK(joint.fit(0).coefficients.at(level).value ==
-          Approx(joint.fit(1).coefficients.at(level).value));
-    CHECK(joint.fit(0).coefficients.at(level).standard_error <
-          0.85 * alone.coefficients.at(level).standard_error);
-    CHECK(joint.fit(1).coefficients.at(constant).value -
-              joint.fit(0).coefficients.at(constant).value ==
+    CHECK(coefficient(joint.fit(0), DayTerm::level).value ==
+          Approx(coefficient(joint.fit(1), DayTerm::level).value));
+    CHECK(coefficient(joint.fit(0), DayTerm::level).standard_error <
+          0.85 * coefficient(alone, DayTerm::level).standard_error);
+    CHECK(coefficient(joint.fit(1), DayTerm::constant).value -
+              coefficient(joint.fit(0), DayTerm::constant).value ==
           Approx(400.0).margin(6.0));
     for (const std::size_t number : kUnknown) {
         const Estimate gravity = joint.gravity(number);
@@ -211,9 +187,7 @@ TEST_CASE("days of one unit share its response, and have their own constants", "
 
 TEST_CASE("units with only stations in common give the weighted mean of their days",
           "[day][joint]") {
-    const MadeUpDay first{.placement_mgal = 1.2, .white_mgal = 0.2};
-    const MadeUpDay second{.placement_mgal = 1.2, .white_mgal = 0.2};
-    const DayRecord a = first.record(21), b = later(second.record(22), 1);
+    const DayRecord a = kScattered.record(21), b = later(kScattered.record(22), kOneDay);
     const DayAdjustment joint = adjust_days({survey_of(a, 0), survey_of(b, 1)});
     const FittedDay of_a = fit_day(a, some_known()).value(),
                     of_b = fit_day(b, some_known()).value();
@@ -252,8 +226,7 @@ TEST_CASE("the share of the placement that a box has is found", "[day][joint]") 
 
 TEST_CASE("the order of surveys has no effect on the gravities", "[day][joint]") {
     const std::vector<DayRecord> records = box_of(2, 0.5, 9);
-    const MadeUpDay day{.placement_mgal = 1.2, .white_mgal = 0.2};
-    const DayRecord next = later(day.record(31), 1);
+    const DayRecord next = later(kScattered.record(31), kOneDay);
     const DayAdjustment one =
         adjust_days({survey_of(records[0], 0), survey_of(records[1], 1), survey_of(next, 0)});
     const DayAdjustment other =

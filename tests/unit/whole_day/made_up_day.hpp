@@ -2,9 +2,13 @@
 /// @file
 /// A day of set-ups whose readings follow the model exactly, except for noise.
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <random>
+#include <vector>
 
 #include "corrector/whole_day/day_columns.hpp"
 #include "corrector/whole_day/day_model.hpp"
@@ -18,7 +22,7 @@ struct MadeUpDay {
     double constant = 1838.0;
     double placement_mgal = 0.0, white_mgal = 1e-4;
     bool has_two_faces = false;  ///< The faces of the set-ups are + - - +, again and again.
-    double scale_share = 0.0;  ///< Share of the thermal effects that acts on the scale.
+    double scale_share = 0.0;    ///< Share of the thermal effects that acts on the scale.
 
     [[nodiscard]] double face(std::size_t set_up) const {
         return has_two_faces && (set_up % 4 == 1 || set_up % 4 == 2) ? -1.0 : 1.0;
@@ -98,6 +102,48 @@ struct MadeUpDay {
     }
 };
 
+/// The day with the usual scatter.
+inline const MadeUpDay kScattered{.placement_mgal = 1.2, .white_mgal = 0.2};
+
+/// Adds an error to the readings of a set-up, or of all set-ups until `end`.
+inline void add(reading::DayRecord& day, std::size_t set_up, double mgal, std::size_t end = 0) {
+    for (reading::DayBin& bin : day.bins)
+        if (bin.set_up == set_up || (bin.set_up > set_up && bin.set_up < end))
+            bin.reading = bin.reading + MilliGal(mgal);
+}
+
+inline constexpr std::chrono::hours kOneDay(24);
+
+/// Returns the record later by some time.
+inline reading::DayRecord later(reading::DayRecord day, std::chrono::hours by) {
+    const auto shifted = [by](const TimeSeries<DegC>& degc) {
+        return TimeSeries<DegC>(degc.start() + by, degc.rate(), degc.values());
+    };
+    day.temperature.series = shifted(day.temperature.series);
+    if (day.outer) day.outer = shifted(*day.outer);
+    for (reading::DayBin& bin : day.bins) {
+        bin.time += by;
+        for (UtcTime& time : bin.times) time += by;
+    }
+    return day;
+}
+
+/// Returns the stations of the made-up day without the references of some.
+inline std::vector<DayStation> stations_without(const std::vector<std::size_t>& numbers) {
+    auto stations = MadeUpDay::stations();
+    for (DayStation& station : stations)
+        if (std::ranges::find(numbers, station.number) != numbers.end()) station.gravity.reset();
+    return stations;
+}
+
+/// Returns one survey of an adjustment of several days.
+inline DaySurvey survey_of(const reading::DayRecord& record, std::size_t unit,
+                           std::vector<DayStation> stations) {
+    std::vector<std::size_t> numbers(MadeUpDay::kSites);
+    std::iota(numbers.begin(), numbers.end(), 0);
+    return {&record, std::move(stations), usual_day_priors(), numbers, unit};
+}
+
 /// What an adjustment says of its first survey, and the gravities.
 struct FittedDay : DayFit {
     explicit FittedDay(const DayAdjustment& adjustment) : DayFit(adjustment.fit()) {
@@ -117,6 +163,16 @@ inline std::optional<FittedDay> fit_day(const reading::DayRecord& record,
         adjust_day({&record, stations, priors}, nearby == nullptr ? nullptr : &nearby->point);
     if (!adjusted) return std::nullopt;
     return FittedDay(*adjusted);
+}
+
+inline const Estimate& coefficient(const DayFit& fit, DayTerm term) {
+    return fit.coefficients.at(static_cast<std::size_t>(term));
+}
+
+/// Returns a reading without tide, flicker and effects.
+inline double corrected_mgal(const DaySetUp& set_up) {
+    return (set_up.reading - set_up.tide - set_up.flicker).value() -
+           std::accumulate(set_up.effect_mgal.begin(), set_up.effect_mgal.end(), 0.0);
 }
 
 /// Returns the day in a box with an outer oven.  Its temperature To has a slow course and a cycle.
