@@ -1,6 +1,6 @@
 // Where a scale, a step and a reference meet: which of them is named, and with which uncertainty.
-#include <cmath>
 #include <fmt/core.h>
+#include <cmath>
 #include <random>
 #include <set>
 #include "tests/support/catch.hpp"
@@ -34,10 +34,11 @@ struct Line {
         for (std::size_t k = 0; k < scales.size(); ++k) {
             reading::SurveyRow row;
             row.site = place.site;
-            row.occupation =
-                1 + static_cast<int>(std::ranges::count(rows, place.site, &reading::SurveyRow::site));
-            row.time = parse_rfc3339("2024-06-12T06:00:00Z").value() +
-                       std::chrono::seconds(std::lround(3600.0 * hours) + 12 * std::ssize(rows) % 72);
+            row.occupation = 1 + static_cast<int>(std::ranges::count(rows, place.site,
+                                                                     &reading::SurveyRow::site));
+            row.time =
+                parse_rfc3339("2024-06-12T06:00:00Z").value() +
+                std::chrono::seconds(std::lround(3600.0 * hours) + 12 * std::ssize(rows) % 72);
             row.instrument = "M" + std::to_string(k);
             row.loop = 1;
             row.has_temperature = false;
@@ -47,11 +48,10 @@ struct Line {
             }
             // A sum of twelve uniform numbers is normal enough, and the same on every machine.
             double error = -6.0;
-            for (int i = 0; i < 12; ++i)
-                error += static_cast<double>(generator() >> 11) * 0x1p-53;
-            row.acceleration = MilliGal(4000.0 + 100.0 * static_cast<double>(k) +
-                                        scales[k] * place.gravity_mgal + 0.02 * hours +
-                                        kReadingSd_mgal * error);
+            for (int i = 0; i < 12; ++i) error += static_cast<double>(generator() >> 11) * 0x1p-53;
+            row.acceleration =
+                MilliGal(4000.0 + 100.0 * static_cast<double>(k) + scales[k] * place.gravity_mgal +
+                         0.02 * hours + kReadingSd_mgal * error);
             rows.push_back(row);
         }
     }
@@ -63,17 +63,23 @@ struct Line {
                 rows[i].acceleration = rows[i].acceleration + MilliGal(mgal);
     }
 
-    [[nodiscard]] model::SurveyCorrection corrected(std::optional<adjustment::Prior> scale = {}) const {
-        model::SurveyOptions options;
-        options.model = "network";
+    /// @param of_first  prior of the scale of M0 alone
+    [[nodiscard]] model::SurveyCorrection corrected(
+        std::optional<adjustment::Prior> scale = {},
+        std::optional<adjustment::Prior> of_first = {}) const {
+        model::SurveyOptions options{.model = "network"};
         options.priors.reading_sd_mgal = kReadingSd_mgal;
         if (scale) adjustment::set_prior(options.priors, "test", "scale", *scale);
+        if (of_first) adjustment::set_prior(options.priors, "test", "scale M0", *of_first);
         return judgement::correct_and_search({rows, {}, nullptr}, options);
     }
 };
 
-const std::vector<Place> kStations{{"A", 0.0, true},   {"B", -151.2, false}, {"C", -60.0, false},
-                                   {"D", 35.0, false}, {"E", -97.0, false}};
+const std::vector<Place> kStations{{"A", 0.0, true},
+                                   {"B", -151.2, false},
+                                   {"C", -60.0, false},
+                                   {"D", 35.0, false},
+                                   {"E", -97.0, false}};
 
 /// A day out and home, each station twice.
 Line day(const std::vector<double>& scales) {
@@ -119,7 +125,8 @@ TEST_CASE("meters whose scales differ by more than their prior are named, and no
     CHECK(mistakes(six.corrected(adjustment::Prior{1.0, 0.001})).empty());
 }
 
-TEST_CASE("a scale that another one, which is held, pushes away is named too", "[judgement][scale]") {
+TEST_CASE("a scale that another one, which is held, pushes away is named too",
+          "[judgement][scale]") {
     const Line two = two_meters_of_which_one_is_off();
     const auto result = two.corrected(adjustment::Prior{1.0, 1e-4});
     const auto found = mistakes(result);
@@ -129,19 +136,15 @@ TEST_CASE("a scale that another one, which is held, pushes away is named too", "
         CHECK_THAT(found[k].text.english(), ContainsSubstring(fmt::format("M{}", k)));
     }
     // A prior of one meter concerns this meter only.
-    model::SurveyOptions options;
-    options.model = "network";
-    options.priors.reading_sd_mgal = kReadingSd_mgal;
-    adjustment::set_prior(options.priors, "test", "scale", {1.0, 1e-4});
-    adjustment::set_prior(options.priors, "test", "scale M0", {1.0008, 1e-4});
-    const auto own = judgement::correct_and_search({two.rows, {}, nullptr}, options);
+    const auto own = two.corrected(adjustment::Prior{1.0, 1e-4}, adjustment::Prior{1.0008, 1e-4});
     CHECK(own.scales.at(0).value == Approx(1.0008).epsilon(0).margin(1e-4));
     CHECK(own.scales.at(1).value == Approx(1.0).epsilon(0).margin(1e-4));
     for (const text::Message& remark : own.remarks)
         CHECK_THAT(remark.english(), !ContainsSubstring("does not use"));
 }
 
-TEST_CASE("no further scale is held while a mistake may be what pushes it away", "[judgement][scale]") {
+TEST_CASE("no further scale is held while a mistake may be what pushes it away",
+          "[judgement][scale]") {
     Line two = two_meters_of_which_one_is_off();
     two.step(10, "M1", 0.4);
     const auto found = mistakes(two.corrected(adjustment::Prior{1.0, 1e-4}));

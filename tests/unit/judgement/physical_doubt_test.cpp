@@ -18,18 +18,13 @@ constexpr double kStudentLimit = 4.17;
 
 /// Returns the made-up day with a scatter of 1 mGal.
 std::vector<SurveyRow> scattered_day() {
-    auto rows = made_up::day();
-    const double alternating[] = {1, -1, 1, 1, -1, -1, 1, -1, 1, 1, -1, -1};
-    for (std::size_t i = 0; i < rows.size(); ++i)
-        rows[i].acceleration = rows[i].acceleration + MilliGal(alternating[i]);
-    return rows;
+    return made_up::day_with_errors({1, -1, 1, 1, -1, -1, 1, -1, 1, 1, -1, -1});
 }
 
 /// Returns the rows whose studentised residual is beyond a limit.
 std::vector<std::string> beyond(const std::vector<SurveyRow>& rows, double limit,
                                 const std::string& model = "t-rate-drift") {
-    SurveyOptions options;
-    options.model = model;
+    SurveyOptions options{.model = model};
     std::vector<std::string> names;
     for (const CorrectedRow& row : correct_survey(rows, options).rows)
         if (std::abs(row.studentised_residual.value_or(0.0)) > limit)
@@ -66,7 +61,7 @@ TEST_CASE("a blunder alone has a large studentised residual, in the fit or not",
           "[survey][physical_doubt]") {
     auto rows = scattered_day();
     CHECK(beyond(rows, kStudentLimit).empty());
-    rows[2].acceleration = rows[2].acceleration + MilliGal(60.0);
+    add(rows[2], 60.0);
     CHECK(beyond(rows, kStudentLimit) == std::vector<std::string>{"S2 (1)"});
     rows[2].is_flagged = true;
     rows[3].is_flagged = true;
@@ -76,15 +71,14 @@ TEST_CASE("a blunder alone has a large studentised residual, in the fit or not",
 TEST_CASE("a network shows a blunder at a station that was read several times",
           "[survey][physical_doubt]") {
     std::vector<SurveyRow> thrice;  // every station again, so that the network is controlled
-    for (const SurveyRow& row : scattered_day()) {
+    for (const SurveyRow& row : scattered_day())
         for (const int shift_min : {0, 5, 10}) {
             thrice.push_back(row);
-            thrice.back().time = row.time + std::chrono::minutes(shift_min);
-            thrice.back().acceleration = row.acceleration + MilliGal(0.1 * shift_min);
+            thrice.back().time += std::chrono::minutes(shift_min);
+            add(thrice.back(), 0.1 * shift_min);
         }
-    }
     constexpr double kLimit = 3.6;  // Student's t with many degrees of freedom at 0.05 / 72
     CHECK(beyond(thrice, kLimit, "network").empty());
-    thrice[10].acceleration = thrice[10].acceleration + MilliGal(40.0);
+    add(thrice[10], 40.0);
     CHECK(beyond(thrice, kLimit, "network") == std::vector<std::string>{"S3 (1)"});
 }

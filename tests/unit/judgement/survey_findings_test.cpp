@@ -17,18 +17,16 @@ namespace {
 
 /// A made-up day with a scatter of 0.3 mGal, and the list of its sites with one more.
 struct Day {
-    std::vector<reading::SurveyRow> rows = model::made_up::day();
+    std::vector<reading::SurveyRow> rows = model::made_up::day_with_errors(
+        {0.3, -0.2, 0.1, -0.4, 0.2, 0.4, -0.3, 0.1, -0.1, 0.3, -0.3, 0.0});
     std::vector<text::Site> sites;
 
     Day() {
-        const std::vector<double> errors_mgal{0.3,  -0.2, 0.1,  -0.4, 0.2,  0.4,
-                                              -0.3, 0.1,  -0.1, 0.3,  -0.3, 0.0};
-        for (std::size_t i = 0; i < rows.size(); ++i) {
-            rows[i].acceleration = rows[i].acceleration + MilliGal(errors_mgal[i]);
-            rows[i].listed = {rows[i].site, rows[i].occupation, std::nullopt};
-            if (text::find_site(sites, rows[i].site) == nullptr)
+        for (reading::SurveyRow& row : rows) {
+            row.listed = {row.site, row.occupation, std::nullopt};
+            if (text::find_site(sites, row.site) == nullptr)
                 sites.push_back(
-                    {rows[i].site, Degrees(140.0), Degrees(36.0), Metres(0.0), rows[i].reference});
+                    {row.site, Degrees(140.0), Degrees(36.0), Metres(0.0), row.reference});
         }
         sites.push_back({"S9", Degrees(140.0), Degrees(36.0), Metres(0.0), MilliGal(979900.0)});
         // The references are not those of a place, so they are not compared with normal gravity.
@@ -36,15 +34,11 @@ struct Day {
     }
 
     [[nodiscard]] std::vector<Finding> findings(const std::string& model = "t-rate-drift") const {
-        model::SurveyOptions options;
-        options.model = model;
-        return judgement::find_mistakes(model::correct_survey(rows, options),
+        return judgement::find_mistakes(model::correct_survey(rows, {.model = model}),
                                         {rows, sites, nullptr});
     }
 
-    void off(std::size_t i, double mgal) {
-        rows[i].acceleration = rows[i].acceleration + MilliGal(mgal);
-    }
+    void off(std::size_t i, double mgal) { model::add(rows[i], mgal); }
 };
 
 std::vector<std::string> kinds(const std::vector<Finding>& findings) {
@@ -153,9 +147,7 @@ TEST_CASE("two bad readings of one day are both named", "[mistake]") {
 TEST_CASE("nothing is said of benchmarks that another sensor of the day may have visited",
           "[mistake]") {
     const Day day;
-    model::SurveyOptions options;
-    options.model = "t-rate-drift";
-    model::SurveyCorrection result = model::correct_survey(day.rows, options);
+    model::SurveyCorrection result = model::correct_survey(day.rows, {.model = "t-rate-drift"});
     result.findings.push_back({.kind = FindingKind::other_unit, .code = "other_unit"});
     CHECK(kinds(judgement::find_mistakes(result, {day.rows, day.sites, nullptr})) ==
           Kinds{"other_unit"});
@@ -204,8 +196,7 @@ TEST_CASE("a base with one stay is named", "[mistake]") {
     for (const std::size_t i : {std::size_t{4}, std::size_t{11}}) {
         day.rows[i].site = "S1";
         day.rows[i].occupation = static_cast<int>(i);
-        day.rows[i].acceleration =
-            day.rows[i].acceleration + (*day.rows[1].reference - *day.rows[i].reference);
+        day.off(i, (*day.rows[1].reference - *day.rows[i].reference).value());
         day.rows[i].reference = day.rows[1].reference;
     }
     const auto found = day.findings();
@@ -276,12 +267,10 @@ TEST_CASE("a mistake does not decide which model is chosen", "[mistake]") {
     CHECK(kinds(result.findings).front() == "unusable_day");
 
     // A model that is asked for is kept, and what is known already stays.
-    model::SurveyOptions options;
-    options.model = "t";
     const Finding known{
         .kind = FindingKind::no_stop, .code = "no_stop", .text = "S1 (1) has no stop"};
     const auto kept =
-        judgement::correct_and_search({day.rows, day.sites, nullptr}, options, {known});
+        judgement::correct_and_search({day.rows, day.sites, nullptr}, {.model = "t"}, {known});
     CHECK(kept.model == "t");
     CHECK(std::ranges::count(kept.findings, known.text, &Finding::text) == 1);
 }

@@ -17,10 +17,8 @@ inline model::SurveyCorrection result_with_evil_name() {
     auto rows = model::made_up::day();
     rows[3].site = kEvil;
     rows[3].notes = {"</td>" + kEvil};
-    rows[3].acceleration = rows[3].acceleration + MilliGal(1.0);
-    model::SurveyOptions options;
-    options.model = "t-rate-drift";
-    return model::correct_survey(rows, options);
+    model::add(rows[3], 1.0);
+    return model::correct_survey(rows, {.model = "t-rate-drift"});
 }
 
 inline ReportSources sources() {
@@ -41,9 +39,8 @@ inline Report report() {
 }
 
 inline const std::string& file(const Report& report, const std::string& name) {
-    for (const auto& [file_name, content] : report.files) {
+    for (const auto& [file_name, content] : report.files)
         if (file_name == name) return content;
-    }
     FAIL(name + " is missing");
     return report.files.front().second;
 }

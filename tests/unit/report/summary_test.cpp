@@ -15,18 +15,11 @@ using namespace a351::corrector::report;
 namespace {
 
 SurveyCorrection corrected(const std::vector<SurveyRow>& rows) {
-    SurveyOptions options;
-    options.model = "t-rate-drift";
-    return correct_survey(rows, options);
+    return correct_survey(rows, {.model = "t-rate-drift"});
 }
 
 /// Returns good readings with some scatter.
-std::vector<SurveyRow> scattered_day() {
-    auto rows = made_up::day();
-    for (std::size_t i = 0; i < rows.size(); ++i)
-        rows[i].acceleration = rows[i].acceleration + MilliGal(i % 2 == 0 ? 0.5 : -0.5);
-    return rows;
-}
+std::vector<SurveyRow> scattered_day() { return made_up::day_with_errors({0.5, -0.5}); }
 
 /// Returns the first parts as they are in the page.
 std::string summary_text(const SurveyCorrection& result, std::size_t warning_count,
@@ -76,9 +69,7 @@ TEST_CASE("a proposed amendment keeps its lines and characters", "[report][summa
 
 TEST_CASE("the stations of a network count as unknowns, not as coefficients of its readings",
           "[report][summary]") {
-    SurveyOptions options;
-    options.model = "network";
-    const SurveyCorrection result = correct_survey(scattered_day(), options);
+    const SurveyCorrection result = correct_survey(scattered_day(), {.model = "network"});
     // 12 readings, 8 datum and a prior of the scale for 8 stations, constant, drift, temperature,
     // scale.
     CHECK(result.score.dof == 9);
@@ -92,8 +83,7 @@ TEST_CASE("the stations of a network count as unknowns, not as coefficients of i
 }
 
 TEST_CASE("a prior adds a degree of freedom", "[report][summary]") {
-    SurveyOptions options;
-    options.model = "t-rate-drift";
+    SurveyOptions options{.model = "t-rate-drift"};
     set_prior(options.priors, "test", "rate_mgal_per_degc_per_h", {10.0, 6.0});
     const SurveyCorrection result = correct_survey(scattered_day(), options);
     CHECK(result.score.dof == 12 + 1 - 4);

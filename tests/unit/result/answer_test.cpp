@@ -18,12 +18,7 @@ namespace {
 
 /// Returns good readings with some scatter.
 SurveyCorrection scattered_day() {
-    auto rows = made_up::day();
-    for (std::size_t i = 0; i < rows.size(); ++i)
-        rows[i].acceleration = rows[i].acceleration + MilliGal(i % 2 == 0 ? 0.5 : -0.5);
-    SurveyOptions options;
-    options.model = "t-rate-drift";
-    return correct_survey(rows, options);
+    return correct_survey(made_up::day_with_errors({0.5, -0.5}), {.model = "t-rate-drift"});
 }
 
 std::vector<ReadingGrade> all_good(const SurveyCorrection& result) {

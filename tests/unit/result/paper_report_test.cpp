@@ -13,9 +13,8 @@ using namespace a351::corrector::result;
 
 TEST_CASE("Table 2 of the publication comes out with its columns, errors and their rms",
           "[result][paper]") {
-    SurveyOptions options;
-    options.model = "paper";
-    const SurveyCorrection result = correct_survey(tsukuba::with_recovered_temperature(), options);
+    const SurveyCorrection result =
+        correct_survey(tsukuba::with_recovered_temperature(), {.model = "paper"});
     REQUIRE(is_paper(result));
     const Table table = paper_table(result);
     CHECK(table.headings == std::vector<std::string>{"Site", "Occ.", "Reference", "Time UTC",

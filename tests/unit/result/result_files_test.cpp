@@ -27,9 +27,7 @@ SurveyCorrection corrected(const std::string& model) {
     rows[3].notes = {"fallback"};
     rows[4].reference.reset();
     rows[2].acceleration = rows[2].acceleration + MilliGal(1.0);
-    SurveyOptions options;
-    options.model = model;
-    SurveyCorrection result = correct_survey(rows, options);
+    SurveyCorrection result = correct_survey(rows, {.model = model});
     for (CorrectedRow& row : result.rows)
         row.doubt_physical = a351::corrector::judgement::physical_doubt(row.row);
     return result;
