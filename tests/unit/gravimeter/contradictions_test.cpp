@@ -4,7 +4,6 @@
 
 #include <fmt/core.h>
 
-#include "tests/support/temporary_directory.hpp"
 #include "tests/unit/gravimeter/made_up_lines.hpp"
 
 using namespace a351;
@@ -15,28 +14,23 @@ namespace {
 
 /// Returns the remarks on a file, with the tide of the made-up lines.
 std::vector<std::string> remarks(const std::string& content, double tide_mgal) {
-    const test::TemporaryDirectory folder;
-    return text::in_english(
-        contradictions(read_gravimeter_file(folder.write("file", content)),
-                       [&](UtcTime, const Position&) { return MilliGal(tide_mgal); }));
-}
-
-std::string moved(std::string line, const std::string& from, const std::string& to) {
-    return line.replace(line.find(from), from.size(), to);
+    return text::in_english(contradictions(
+        read(content), [&](UtcTime, const Position&) { return MilliGal(tide_mgal); }));
 }
 
 }  // namespace
 
 TEST_CASE("positions of one station that differ are one remark with the worst", "[gravimeter]") {
     const std::string one = cg6_reading("A", "10:00:00"), two = cg6_reading("A", "10:01:00");
-    CHECK(remarks(cg6_header() + one + moved(two, "39.5", "39.5008"), 0.0488).empty());  // 89 m
-    CHECK(remarks(cg6_header() + one + moved(two, "1577.0", "1586.0"), 0.0488).empty());
-    CHECK(remarks(cg6_header() + one + moved(cg6_reading("B", "10:01:00"), "39.5", "38.5"), 0.0488)
-              .empty());
-    const auto found = remarks(cg6_header() + one + moved(two, "39.5", "39.5010") +
-                                   moved(cg6_reading("A", "10:02:00"), "1577.0", "1547.0") +
+    CHECK(remarks(cg6_header() + one + changed(two, "39.5", "39.5008"), 0.0488).empty());  // 89 m
+    CHECK(remarks(cg6_header() + one + changed(two, "1577.0", "1586.0"), 0.0488).empty());
+    CHECK(
+        remarks(cg6_header() + one + changed(cg6_reading("B", "10:01:00"), "39.5", "38.5"), 0.0488)
+            .empty());
+    const auto found = remarks(cg6_header() + one + changed(two, "39.5", "39.5010") +
+                                   changed(cg6_reading("A", "10:02:00"), "1577.0", "1547.0") +
                                    cg6_reading("B", "10:03:00") +
-                                   moved(cg6_reading("B", "10:04:00"), "1577.0", "1590.0"),
+                                   changed(cg6_reading("B", "10:04:00"), "1577.0", "1590.0"),
                                0.0488);
     REQUIRE(found.size() == 1);
     CHECK(found[0] ==
@@ -46,9 +40,9 @@ TEST_CASE("positions of one station that differ are one remark with the worst", 
 
 TEST_CASE("a receiver that is far from the position entered is a remark", "[gravimeter]") {
     const std::string line =
-        moved(cg6_reading("A", "10:00:00"), "--\t--\t--", "39.5\t-105.0\t1577.0");
+        changed(cg6_reading("A", "10:00:00"), "--\t--\t--", "39.5\t-105.0\t1577.0");
     CHECK(remarks(cg6_header() + line, 0.0488).empty());
-    const auto found = remarks(cg6_header() + moved(line, "39.5", "39.4"), 0.0488);
+    const auto found = remarks(cg6_header() + changed(line, "39.5", "39.4"), 0.0488);
     REQUIRE(found.size() == 1);
     CHECK(found[0] ==
           "the receiver is up to 11119 m from the position that was entered, at A (line 5), +8.87 "
@@ -86,19 +80,17 @@ TEST_CASE("one wrong tide among many readings is no shift of the times", "[gravi
     for (int i = 0; i < kCount; ++i) {
         const double wrong = i == 1 ? 0.05 : 0.0;
         const auto at = start + std::chrono::minutes(i);
-        content += moved(cg6_reading("A", to_rfc3339(at).substr(11, 8)), "-0.0488",
-                         fmt::format("{:.4f}", -tide_of(at) - wrong));
+        content += changed(cg6_reading("A", to_rfc3339(at).substr(11, 8)), "-0.0488",
+                           fmt::format("{:.4f}", -tide_of(at) - wrong));
     }
-    const test::TemporaryDirectory folder;
-    const auto found = text::in_english(
-        contradictions(read_gravimeter_file(folder.write("file", content)),
-                       [&](UtcTime time, const Position&) { return MilliGal(tide_of(time)); }));
+    const auto found = text::in_english(contradictions(
+        read(content), [&](UtcTime time, const Position&) { return MilliGal(tide_of(time)); }));
     REQUIRE(found.size() == 1);
     CHECK_THAT(found[0], ContainsSubstring("by up to 0.050 mGal (line 6): check the clock"));
 }
 
 TEST_CASE("a tide correction that is 0 throughout is a remark of its own", "[gravimeter]") {
-    const std::string line = moved(burris_reading("a", "10:00:00"), "-0.103", "0");
+    const std::string line = changed(burris_reading("a", "10:00:00"), "-0.103", "0");
     const auto found = remarks(line, 0.108);
     REQUIRE(found.size() == 1);
     CHECK_THAT(found[0], ContainsSubstring("the tide correction is 0 in all readings"));

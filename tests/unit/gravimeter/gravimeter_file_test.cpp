@@ -45,10 +45,10 @@ TEST_CASE("a CG-5 without its tide correction has none, and a second header chan
 
 TEST_CASE("a coordinate in the header of a CG-5 that is none is refused", "[gravimeter]") {
     const auto refused = [](const std::string& from, const std::string& to) {
-        std::string text = cg5_header("0.0") + cg5_reading("1", "10:00:00");
-        text.replace(text.find(from), from.size(), to);
         std::string reasons;
-        for (const RefusedLine& line : read(text).refused) reasons += line.reason + ";";
+        for (const RefusedLine& line :
+             read(changed(cg5_header("0.0") + cg5_reading("1", "10:00:00"), from, to)).refused)
+            reasons += line.reason + ";";
         return reasons;
     };
     CHECK(refused("33.25 S", "90.0 S").find("LAT") == std::string::npos);
@@ -72,8 +72,8 @@ TEST_CASE("a CG-6 gives its own tide only if it was applied, and the receiver's 
 }
 
 TEST_CASE("a word of the names elsewhere in a line of a CG-6 is no line of names", "[gravimeter]") {
-    std::string reading = cg6_reading("A", "10:00:00");
-    reading.replace(reading.find("2066.1898\t1") + 10, 1, "Station");
+    const std::string reading =
+        changed(cg6_reading("A", "10:00:00"), "2066.1898\t1", "2066.1898\tStation");
     const auto file = read("/\tCG-6 Survey\n/\tSurvey Name:\tStation\n" + cg6_header().substr(15) +
                            reading + cg6_reading("B", "10:01:00"));
     CHECK(file.refused.empty());
@@ -124,8 +124,7 @@ TEST_CASE("a Burris is read with 15 columns, with a note, and with quoted or emp
 TEST_CASE("a Burris with the year last is read if a day above 12 proves that the month is first",
           "[gravimeter]") {
     const auto dated = [](const std::string& date) {
-        std::string line = burris_reading("a", "10:00:00");
-        return line.replace(line.find("2017/12/05"), 10, date);
+        return changed(burris_reading("a", "10:00:00"), "2017/12/05", date);
     };
     const auto file = read(dated("05/12/2017") + dated("5/13/2017"));
     REQUIRE(file.readings.size() == 2);
@@ -141,8 +140,7 @@ TEST_CASE(
     "a Burris between blanks whose observer is a number is refused, because a station can "
     "have a blank",
     "[gravimeter]") {
-    std::string line = burris_reading("BM", "10:00:00");
-    line.replace(line.find("abc"), 3, "1");
+    std::string line = changed(burris_reading("BM", "10:00:00"), "abc", "1");
     CHECK_THROWS_WITH(read(line + line), ContainsSubstring("Observer ID = 1: a number"));
     for (char& letter : line)
         if (letter == ' ') letter = ',';
@@ -152,8 +150,7 @@ TEST_CASE(
 TEST_CASE("a Burris between blanks with further words in its names is refused by its columns",
           "[gravimeter]") {
     const auto with = [](const std::string& station, const std::string& observer) {
-        std::string line = burris_reading(station, "10:00:00");
-        return line.replace(line.find("abc"), 3, observer);
+        return changed(burris_reading(station, "10:00:00"), "abc", observer);
     };
     for (const std::string& line :
          {with("North Hill", "abc"), with("BM", "a b"), with("a b c", "d")})
@@ -203,8 +200,7 @@ TEST_CASE("columns without a name, as a spreadsheet adds at the end, are not use
 
 TEST_CASE("a line of names with columns that nobody knows is refused with their names",
           "[gravimeter]") {
-    std::string cg6 = cg6_header();
-    cg6.replace(cg6.find("TideCorr"), 8, "SeaLevel");
+    const std::string cg6 = changed(cg6_header(), "TideCorr", "SeaLevel");
     const auto [content, line,
                 reason] = GENERATE_COPY(table<std::string, std::size_t, std::string>({
         {cg6 + cg6_reading("A", "10:00:00") + cg6_header() + cg6_reading("A", "10:00:00"), 4,
@@ -267,9 +263,8 @@ TEST_CASE("a CG-5 with stations in the notes lists them, and a file lists all it
 }
 
 TEST_CASE("a CG-5 can have its options before the survey, and lines switched off", "[gravimeter]") {
-    std::string header = cg5_header("0.0");
     const std::string options = "/\tTide Correction:    YES\r\n";
-    header.erase(header.find(options), options.size());
+    const std::string header = changed(cg5_header("0.0"), options, "");
     const auto file =
         read(options + "#" + cg5_reading("1", "10:00:00") + header + cg5_reading("1", "10:00:00"));
     CHECK(file.readings.size() == 1);
@@ -283,13 +278,13 @@ TEST_CASE("a CG-5 can have its options before the survey, and lines switched off
 
 TEST_CASE("a CG-6 keeps a reading whose standard deviation is too wide for its column",
           "[gravimeter]") {
-    std::string line = cg6_reading("A", "10:00:00");
-    line.replace(line.find("0.0128"), 6, "****");
-    const auto file = read(cg6_header() + line);
+    const std::string line = cg6_reading("A", "10:00:00");
+    const auto file = read(cg6_header() + changed(line, "0.0128", "****"));
     REQUIRE(file.readings.size() == 1);
     CHECK(kept(file.readings[0], "sd_mgal").empty());
-    line.replace(line.find("****"), 4, "0.x1");
-    CHECK_THAT(read(cg6_header() + line + cg6_reading("A", "10:01:00")).refused.front().reason,
+    CHECK_THAT(read(cg6_header() + changed(line, "0.0128", "0.x1") + cg6_reading("A", "10:01:00"))
+                   .refused.front()
+                   .reason,
                ContainsSubstring("StdDev = 0.x1: not a number"));
 }
 
@@ -364,8 +359,7 @@ TEST_CASE("a torn line of a GCYM table and another network are refused", "[gravi
          {"ai CAR\n" + reading + "C098 GCYM\n", "C098 GCYM\n" + reading})
         REQUIRE(refused(content).size() == 1);
     CHECK(refused(reading + "C098 GCYM\n")[0].reason == "2 columns; allowed: 7");
-    std::string other = reading;
-    other.replace(other.find("GCYM"), 4, "GCYN");
+    const std::string other = changed(reading, "GCYM", "GCYN");
     REQUIRE(refused(reading + other).size() == 1);
     CHECK(refused(reading + other)[0].reason == "network = GCYN: allowed: GCYM");
 }

@@ -92,10 +92,9 @@ TEST_CASE("a blank in a name of Lynx LG does not hide behind an empty cell", "[g
 
 TEST_CASE("columns of Lynx LG are taken by their order only with the names of what is computed",
           "[gravimeter]") {
-    std::string names = lynx_names();
     const std::string name =
         GENERATE("Station", "Minute", "CorrGravity(mGals)", "TidalCorr(mGals)");
-    names.replace(names.find("/ " + name + "\n") + 2, name.size(), "Other");
+    const std::string names = changed(lynx_names(), "/ " + name + "\n", "/ Other\n");
     CHECK_THROWS_WITH(read(kLynxHeader + names + "/ \n" + lynx_reading("north P1 2 7")),
                       ContainsSubstring("unknown columns: "));
 }
@@ -103,8 +102,7 @@ TEST_CASE("columns of Lynx LG are taken by their order only with the names of wh
 TEST_CASE("a second header of Lynx LG leaves nothing of the first", "[gravimeter]") {
     const std::string line = lynx_reading("north P1 2 7");
     const std::string start = kLynxHeader + lynx_names() + "/ \n" + line;
-    std::string names = lynx_names();
-    names.replace(names.find("TidalCorr(mGals)"), 16, "Other");
+    const std::string names = changed(lynx_names(), "TidalCorr(mGals)", "Other");
     const auto other_names = read(start + names + "/ \n" + line);
     REQUIRE(other_names.refused.size() == 1);
     CHECK_THAT(other_names.refused[0].reason, ContainsSubstring("unknown columns: Other"));

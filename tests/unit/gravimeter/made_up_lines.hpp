@@ -13,6 +13,11 @@ inline GravimeterFile read(const std::string& content) {
     return read_gravimeter_file(folder.write("no-name", content));
 }
 
+/// Returns the text with the first of some words replaced.
+inline std::string changed(std::string text, const std::string& from, const std::string& to) {
+    return text.replace(text.find(from), from.size(), to);
+}
+
 inline std::string kept(const Reading& reading, const std::string& name) {
     for (const auto& [key, text] : reading.kept)
         if (key == name) return text;

@@ -4,7 +4,6 @@
 
 #include "corrector/gravimeter/survey_tables.hpp"
 #include "protocol/text/sites.hpp"
-#include "tests/support/temporary_directory.hpp"
 #include "tests/unit/gravimeter/made_up_lines.hpp"
 
 using namespace a351;
@@ -14,11 +13,10 @@ using namespace made_up;
 namespace {
 
 std::vector<GravimeterFile> files_with(const std::vector<std::string>& names) {
-    const test::TemporaryDirectory folder;
     std::string content = cg6_header();
     for (std::size_t i = 0; i < names.size(); ++i)
         content += cg6_reading(names[i], "10:0" + std::to_string(i) + ":00");
-    return {read_gravimeter_file(folder.write("file", content))};
+    return {read(content)};
 }
 
 }  // namespace
@@ -47,7 +45,7 @@ TEST_CASE("two names that would be one in the tables are refused", "[gravimeter]
     auto files = files_with({"A,1", "A;1"});
     CHECK_THROWS_WITH(
         make_table_names(files),
-        ContainsSubstring("file:6: station = A;1: would be A;1 in the tables, as A,1 is"));
+        ContainsSubstring("no-name:6: station = A;1: would be A;1 in the tables, as A,1 is"));
 }
 
 TEST_CASE("names that differ only in writing are asked about and remain two stations",
@@ -63,11 +61,7 @@ TEST_CASE("names that differ only in writing are asked about and remain two stat
 }
 
 TEST_CASE("a file with a byte-order mark is read", "[gravimeter]") {
-    const test::TemporaryDirectory folder;
-    CHECK(read_gravimeter_file(
-              folder.write("f", "\xEF\xBB\xBF" + cg6_header() + cg6_reading("A", "10:00:00")))
-              .readings.size() == 1);
-    CHECK(read_gravimeter_file(folder.write("f", "\xEF\xBB\xBF" + burris_reading("A", "10:00:00")))
-              .readings.front()
-              .site == "A");
+    const std::string mark = "\xEF\xBB\xBF";
+    CHECK(read(mark + cg6_header() + cg6_reading("A", "10:00:00")).readings.size() == 1);
+    CHECK(read(mark + burris_reading("A", "10:00:00")).readings.front().site == "A");
 }

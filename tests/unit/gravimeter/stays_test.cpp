@@ -4,7 +4,6 @@
 
 #include "corrector/gravimeter/survey_tables.hpp"
 #include "protocol/core/input_error.hpp"
-#include "tests/support/temporary_directory.hpp"
 #include "tests/unit/gravimeter/made_up_lines.hpp"
 
 using namespace a351;
@@ -14,10 +13,8 @@ using namespace made_up;
 namespace {
 
 std::vector<GravimeterFile> read_files(const std::vector<std::string>& contents) {
-    const test::TemporaryDirectory folder;
     std::vector<GravimeterFile> files;
-    for (const std::string& content : contents)
-        files.push_back(read_gravimeter_file(folder.write("file", content)));
+    for (const std::string& content : contents) files.push_back(read(content));
     return files;
 }
 
@@ -130,9 +127,8 @@ TEST_CASE("a tide that the instrument did not remove cannot be kept", "[gravimet
 }
 
 TEST_CASE("text of the operator cannot break the table of readings", "[gravimeter]") {
-    std::string content = cg6_header() + cg6_reading("A", "10:00:00");
-    content.replace(content.find("\t1\t0.0128"), 3, "\tx,\x01yÄ\t");
-    auto files = read_files({content});
+    auto files =
+        read_files({changed(cg6_header() + cg6_reading("A", "10:00:00"), "\t1\t", "\tx,\x01yÄ\t")});
     const auto stays = find_stays(files);
     CHECK_THAT(table(survey_tables(files, stays, {}), "readings.csv"),
                ContainsSubstring(",x;?yÄ,"));
