@@ -11,9 +11,7 @@ namespace a351::corrector::figure {
 /// Returns made-up rows corrected by a linear model.
 inline model::SurveyCorrection corrected(const std::vector<reading::SurveyRow>& rows,
                                          const std::string& model = "t") {
-    model::SurveyOptions options;
-    options.model = model;
-    return model::correct_survey(rows, options);
+    return model::correct_survey(rows, {.model = model});
 }
 
 /// Returns how often a part occurs in a text.

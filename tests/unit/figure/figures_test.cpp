@@ -53,6 +53,19 @@ text::Site site(const std::string& name, double longitude, double latitude, bool
     return site;
 }
 
+SurveyCorrection with_stations(const std::vector<std::string>& names) {
+    SurveyCorrection result;
+    for (const std::string& name : names) result.stations.emplace_back().site = name;
+    return result;
+}
+
+/// Returns the range of an axis.
+std::pair<double, double> range(const std::string& script, const std::string& axis) {
+    std::smatch limits;
+    REQUIRE(std::regex_search(script, limits, std::regex(axis + "range \\[(.*):(.*)\\]")));
+    return {std::stod(limits[1]), std::stod(limits[2])};
+}
+
 }  // namespace
 
 TEST_CASE("figures 12 and 13 of the publication are reproduced with the lines printed there",
@@ -104,11 +117,7 @@ TEST_CASE("every row is in a block of its kind, and an empty block is not plotte
     CHECK(figure.data.find("# S2 (1)") > figure.data.find("# left out of the fit"));
     for (SurveyRow& row : rows) row.reference.reset();
     SurveyCorrection unknown;
-    for (const SurveyRow& row : rows) {
-        CorrectedRow out;
-        out.row = row;
-        unknown.rows.push_back(out);
-    }
+    for (const SurveyRow& row : rows) unknown.rows.emplace_back().row = row;
     CHECK_FALSE(acceleration_figure(unknown, {}).has_value());
 }
 
@@ -220,26 +229,18 @@ TEST_CASE(
     "on the map a degree of longitude is shorter than one of latitude by the cosine of the "
     "latitude",
     "[report][figures]") {
-    SurveyCorrection result;
-    for (const char* const name : {"A", "B", "C"}) {
-        StationValue station;
-        station.site = name;
-        result.stations.push_back(station);
-    }
+    SurveyCorrection result = with_stations({"A", "B", "C"});
     const auto figure = map_figure(result,
                                    {site("A", 10.0, 60.0), site("B", 10.2, 60.01),
                                     site("elsewhere", 50.0, 0.0), site("C", 10.1, 59.99, false)},
                                    {});
     const std::string script = script_of(figure.value());
-    std::smatch x, y;
-    REQUIRE(std::regex_search(script, x, std::regex("xrange \\[(.*):(.*)\\]")));
-    REQUIRE(std::regex_search(script, y, std::regex("yrange \\[(.*):(.*)\\]")));
+    const auto [west, east] = range(script, "x");
+    const auto [south, north] = range(script, "y");
     // The plot is 53.5 by 70 mm.
-    const double width_deg = std::stod(x[2]) - std::stod(x[1]);
-    const double height_deg = std::stod(y[2]) - std::stod(y[1]);
-    CHECK(width_deg / 53.5 * 0.5 == Approx(height_deg / 70).epsilon(1e-5));
-    CHECK(std::stod(x[1]) < 10.0);
-    CHECK(std::stod(x[2]) > 10.2);
+    CHECK((east - west) / 53.5 * 0.5 == Approx((north - south) / 70).epsilon(1e-5));
+    CHECK(west < 10.0);
+    CHECK(east > 10.2);
     CHECK_THAT(script,
                ContainsSubstring("unknown gravity") && ContainsSubstring("set label '2 km'"));
     CHECK(count(figure.value().data, "elsewhere") == 0);
@@ -248,21 +249,14 @@ TEST_CASE(
 
 TEST_CASE("the map of stations across the 180th meridian is one piece", "[report][figures]") {
     // After GNS-Science/gsolve and obspy's events_longitude_wrap.
-    SurveyCorrection result;
-    for (const char* const name : {"A", "B", "C"}) {
-        StationValue station;
-        station.site = name;
-        result.stations.push_back(station);
-    }
+    SurveyCorrection result = with_stations({"A", "B", "C"});
     const double second = GENERATE(-179.99, 180.01);
     const std::string script = script_of(
         map_figure(result,
                    {site("A", 179.99, 36.2), site("B", second, 36.21), site("C", 180, 36.2)}, {})
             .value());
-    std::smatch x;
-    REQUIRE(std::regex_search(script, x, std::regex("xrange \\[(.*):(.*)\\]")));
-    CHECK(std::stod(x[1]) > 179.9);
-    CHECK(std::stod(x[2]) < 180.1);
+    CHECK(range(script, "x").first > 179.9);
+    CHECK(range(script, "x").second < 180.1);
     CHECK_THAT(script, ContainsSubstring("set label '500 m'"));
 }
 
@@ -281,12 +275,7 @@ TEST_CASE("the map shows gravity and the order of the visits, those without a va
 }
 
 TEST_CASE("stations that are all at one place still give a map", "[report][figures]") {
-    SurveyCorrection result;
-    for (const char* const name : {"A", "B"}) {
-        StationValue station;
-        station.site = name;
-        result.stations.push_back(station);
-    }
+    SurveyCorrection result = with_stations({"A", "B"});
     const Figure figure =
         map_figure(result, {site("A", 10.0, 45.0), site("B", 10.0, 45.0)}, {}).value();
     CHECK_THAT(script_of(figure), ContainsSubstring("set label 'A'") &&
@@ -295,12 +284,7 @@ TEST_CASE("stations that are all at one place still give a map", "[report][figur
 }
 
 TEST_CASE("the labels of the map cover neither a point nor another label", "[report][figures]") {
-    SurveyCorrection result;
-    for (const char* const name : {"A", "B", "C", "D"}) {
-        StationValue station;
-        station.site = name;
-        result.stations.push_back(station);
-    }
+    SurveyCorrection result = with_stations({"A", "B", "C", "D"});
     // B is a little east of A, so that A's label must be left of it; the others are far away.
     const Figure figure = map_figure(result,
                                      {site("A", 10.0, 45.0), site("B", 10.004, 45.0),
@@ -314,14 +298,13 @@ TEST_CASE("the labels of the map cover neither a point nor another label", "[rep
         map_figure(result, {site("A", 10.0, 45.0), site("B", 10.0, 45.0), site("C", 10.0, 45.0)},
                    {})
             .value();
-    for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t k = 0; k < i; ++k) {
             const Text &one = same.panels.front().texts.at(i),
                        &other = same.panels.front().texts.at(k);
             const double apart_mm = std::abs(one.place.y - other.place.y) * 70;
             CHECK((one.side != other.side || apart_mm > 2.99));
         }
-    }
 }
 
 TEST_CASE("the map names the stations whose label has no room, and no pointer crosses a label",
@@ -350,12 +333,7 @@ TEST_CASE("the map names the stations whose label has no room, and no pointer cr
 }
 
 TEST_CASE("a station without coordinates is not on the map", "[report][figures]") {
-    SurveyCorrection result;
-    for (const char* const name : {"A", "B"}) {
-        StationValue station;
-        station.site = name;
-        result.stations.push_back(station);
-    }
+    SurveyCorrection result = with_stations({"A", "B"});
     std::vector<text::Site> sites{site("A", 10.0, 45.0), site("B", 10.0, 45.0)};
     sites[1].is_placed = false;
     const auto figure = map_figure(result, sites, {});
