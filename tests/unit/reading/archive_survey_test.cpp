@@ -20,10 +20,45 @@ namespace {
 constexpr std::chrono::seconds kStay = Morning::kStay;
 const std::vector<std::string>& kMorningSites = Morning::kSites;
 
+SurveyFile survey_of(const Morning& morning,
+                     const std::string& keys = "tide='none'\noccupations='occupations.csv'\n") {
+    return read_survey_file(morning.folder().write("day.toml", "[survey]\n" + keys));
+}
+
+OccupationRows read(const SurveyFile& survey) {
+    return read_survey(survey, [](std::size_t, std::size_t) {});
+}
+
 OccupationRows average(const Morning& morning,
                        const std::string& keys = "occupations='occupations.csv'\n") {
-    const auto file = morning.folder().write("day.toml", "[survey]\ntide='none'\n" + keys);
-    return read_survey(read_survey_file(file), [](std::size_t, std::size_t) {});
+    return read(survey_of(morning, "tide='none'\n" + keys));
+}
+
+/// Returns the readings of a list of occupations.
+OccupationRows average_listed(const Morning& morning, const std::string& rows) {
+    morning.folder().write("other.csv", "site,occupation,start_utc,end_utc,used,note\n" + rows);
+    return average(morning, "occupations='other.csv'\n");
+}
+
+/// Logs the stays; the last one without its stop.
+void log_stays(const Morning& morning, bool has_last_stop) {
+    const auto log = [&](const events::Event& event) {
+        events::append_event(files::posix_files(), morning.folder().path() / "data/events", event);
+    };
+    for (std::size_t i = 0; i < kMorningSites.size(); ++i) {
+        log({"start", Morning::start_of(i), {}, {}, {{"site", kMorningSites[i]}}});
+        if (has_last_stop || i + 1 < kMorningSites.size())
+            log({"stop", Morning::start_of(i) + kStay, {}, {}, {}});
+    }
+}
+
+void check_same_readings(const OccupationRows& a, const OccupationRows& b) {
+    REQUIRE(a.rows.size() == b.rows.size());
+    for (std::size_t i = 0; i < a.rows.size(); ++i) {
+        CHECK(a.rows[i].acceleration == b.rows[i].acceleration);
+        CHECK(a.rows[i].temperature == b.rows[i].temperature);
+        CHECK(a.rows[i].occupation == b.rows[i].occupation);
+    }
 }
 
 }  // namespace
@@ -104,43 +139,23 @@ TEST_CASE("two runs over the same archive are bit-identical", "[survey][archive]
     Morning morning;
     const auto a = average(morning);
     const auto b = average(morning);
-    REQUIRE(a.rows.size() == b.rows.size());
-    for (std::size_t i = 0; i < a.rows.size(); ++i) {
-        CHECK(a.rows[i].acceleration == b.rows[i].acceleration);
-        CHECK(a.rows[i].temperature == b.rows[i].temperature);
-    }
+    check_same_readings(a, b);
     REQUIRE(a.inputs.size() == b.inputs.size());
     CHECK(a.inputs.size() == 4 + 8);  // survey, sites, metadata, occupations; 4 channels, 2 days
 }
 
 TEST_CASE("occupations are read from the event log if no table is given", "[survey][archive]") {
     Morning morning;
-    for (std::size_t i = 0; i < kMorningSites.size(); ++i) {
-        events::Event start{"start", Morning::start_of(i), {}, {}, {{"site", kMorningSites[i]}}};
-        events::Event stop{"stop", Morning::start_of(i) + kStay, {}, {}, {}};
-        events::append_event(files::posix_files(), morning.folder().path() / "data/events", start);
-        events::append_event(files::posix_files(), morning.folder().path() / "data/events", stop);
-    }
+    log_stays(morning, true);
     const auto logged = average(morning, "");
     const auto listed = average(morning);
-    REQUIRE(logged.rows.size() == listed.rows.size());
-    for (std::size_t i = 0; i < logged.rows.size(); ++i) {
-        CHECK(logged.rows[i].acceleration == listed.rows[i].acceleration);
-        CHECK(logged.rows[i].occupation == listed.rows[i].occupation);
-    }
+    check_same_readings(logged, listed);
 }
 
 TEST_CASE("the last stay of a log without a stop lasts until the end of the record",
           "[survey][archive]") {
     Morning morning;
-    const auto events = morning.folder().path() / "data/events";
-    for (std::size_t i = 0; i < kMorningSites.size(); ++i) {
-        events::append_event(files::posix_files(), events,
-                             {"start", Morning::start_of(i), {}, {}, {{"site", kMorningSites[i]}}});
-        if (i + 1 < kMorningSites.size())
-            events::append_event(files::posix_files(), events,
-                                 {"stop", Morning::start_of(i) + kStay, {}, {}, {}});
-    }
+    log_stays(morning, false);
     const auto result = average(morning, "");
     REQUIRE(result.rows.size() == kMorningSites.size());
     const UtcTime end = Morning::kBegin + static_cast<int>(kMorningSites.size()) * Morning::kCycle;
@@ -160,11 +175,9 @@ TEST_CASE("the last stay of a log without a stop lasts until the end of the reco
 
 TEST_CASE("an occupation outside the archive is left out and reported", "[survey][archive]") {
     Morning morning;
-    morning.folder().write("late.csv",
-                           "site,occupation,start_utc,end_utc,used,note\n"
-                           "B,1,2020-05-01T23:50:20Z,2020-05-01T23:52:50Z,1,\n"
-                           "S1,1,2020-05-02T03:00:00Z,2020-05-02T03:10:00Z,1,\n");
-    const auto result = average(morning, "occupations='late.csv'\n");
+    const auto result = average_listed(morning,
+                                       "B,1,2020-05-01T23:50:20Z,2020-05-01T23:52:50Z,1,\n"
+                                       "S1,1,2020-05-02T03:00:00Z,2020-05-02T03:10:00Z,1,\n");
     CHECK(result.rows.size() == 1);
     REQUIRE(result.warnings.size() == 1);
     CHECK(result.warnings[0] == "S1 (1) at 2020-05-02T03:00:00Z is left out: no samples");
@@ -186,11 +199,8 @@ TEST_CASE("a stay with values of a wrong profile is left out, and the others do 
             CHECK(std::abs(degc - 42.3) < 0.5);
         for (const auto& minute : result.temperature_course)
             CHECK(std::abs(minute.mean.value() - 42.3) < 0.5);
-        morning.folder().write("late.csv",
-                               "site,occupation,start_utc,end_utc,used,note\n"
-                               "B,1,2020-05-02T00:02:20Z,2020-05-02T00:04:50Z,1,\n");
         CHECK_THROWS_WITH(
-            average(morning, "occupations='late.csv'\n"),
+            average_listed(morning, "B,1,2020-05-02T00:02:20Z,2020-05-02T00:04:50Z,1,\n"),
             ContainsSubstring("no occupation can be used: no sensor sends such values") &&
                 ContainsSubstring("a351-correct retime --profile"));
     }
@@ -198,17 +208,14 @@ TEST_CASE("a stay with values of a wrong profile is left out, and the others do 
 
 TEST_CASE("a survey without any sample is refused", "[survey][archive]") {
     Morning morning;
-    morning.folder().write("other.csv",
-                           "site,occupation,start_utc,end_utc,used,note\n"
-                           "B,1,2021-05-01T23:50:20Z,2021-05-01T23:52:50Z,1,\n");
-    CHECK_THROWS_AS(average(morning, "occupations='other.csv'\n"), InputError);
+    CHECK_THROWS_AS(average_listed(morning, "B,1,2021-05-01T23:50:20Z,2021-05-01T23:52:50Z,1,\n"),
+                    InputError);
 }
 
 TEST_CASE("the tide of a row is that of the middle of its interval", "[survey][archive]") {
     Morning morning;
-    const auto file = morning.folder().write(
-        "day.toml", "[survey]\noccupations='occupations.csv'\ndelta2=1.2\ndelta3=1.2\n");
-    const auto result = read_survey(read_survey_file(file), [](std::size_t, std::size_t) {});
+    const auto result =
+        read(survey_of(morning, "occupations='occupations.csv'\ndelta2=1.2\ndelta3=1.2\n"));
     for (const SurveyRow& row : result.rows) {
         const UtcTime middle = *row.start + (*row.end - *row.start) / 2;
         const auto sites = text::read_sites(morning.folder().path() / "sites.csv");
@@ -221,22 +228,19 @@ TEST_CASE("the tide of a row is that of the middle of its interval", "[survey][a
 TEST_CASE("a day with an exchange is one survey for each sensor, each with its own readings",
           "[survey][archive][units]") {
     const Morning morning(Morning::Sensors::exchanged);
-    const auto file = morning.folder().write(
-        "day.toml", "[survey]\ntide='none'\noccupations='occupations.csv'\n");
-    const SurveyFile day = read_survey_file(file);
-    CHECK_THROWS_WITH(read_survey(day, [](std::size_t, std::size_t) {}),
-                      ContainsSubstring("several sensors (00000001, 00000777)"));
+    const SurveyFile day = survey_of(morning);
+    CHECK_THROWS_WITH(read(day), ContainsSubstring("several sensors (00000001, 00000777)"));
 
     const std::vector<SurveyFile> parts = by_unit(day);
     REQUIRE(parts.size() == 2);
     for (std::size_t part = 0; part < 2; ++part) {
         CAPTURE(part);
-        const OccupationRows read = read_survey(parts[part], [](std::size_t, std::size_t) {});
+        const OccupationRows own = read(parts[part]);
         CHECK(parts[part].name == (part == 0 ? "day-00000001" : "day-00000777"));
-        CHECK(read.serial_number == (part == 0 ? "00000001" : "00000777"));
-        REQUIRE(read.rows.size() == 2);
+        CHECK(own.serial_number == (part == 0 ? "00000001" : "00000777"));
+        REQUIRE(own.rows.size() == 2);
         for (std::size_t i = 0; i < 2; ++i) {
-            const SurveyRow& row = read.rows[i];
+            const SurveyRow& row = own.rows[i];
             CHECK(row.site == kMorningSites[2 * part + i]);
             const double written =
                 Morning::reading_mgal(seconds_between(Morning::kBegin, row.time));
@@ -245,18 +249,18 @@ TEST_CASE("a day with an exchange is one survey for each sensor, each with its o
                 Approx(written + (part == 0 ? 0.0 : Morning::kOther_mgal)).epsilon(0).margin(0.1));
         }
         const auto finding =
-            std::ranges::find(read.findings, FindingKind::other_unit, &Finding::kind);
-        REQUIRE(finding != read.findings.end());
+            std::ranges::find(own.findings, FindingKind::other_unit, &Finding::kind);
+        REQUIRE(finding != own.findings.end());
         CHECK(finding->time == Morning::kBegin + Morning::kExchange);
         CHECK_THAT(finding->text.english(),
                    ContainsSubstring("00000001, 00000777 2020-05-01T23:58:00Z; these are the "
                                      "readings of " +
-                                     read.serial_number));
+                                     own.serial_number));
         // No temperature of the other sensor.
-        REQUIRE_FALSE(read.temperature_course.empty());
+        REQUIRE_FALSE(own.temperature_course.empty());
         const UtcTime exchange = Morning::kBegin + Morning::kExchange;
-        CHECK((read.temperature_course.front().middle < exchange) == (part == 0));
-        CHECK((read.temperature_course.back().middle < exchange) == (part == 0));
+        CHECK((own.temperature_course.front().middle < exchange) == (part == 0));
+        CHECK((own.temperature_course.back().middle < exchange) == (part == 0));
     }
 }
 
@@ -267,28 +271,24 @@ TEST_CASE("a stay during which the sensor was exchanged ends there", "[survey][a
                            "B,1,2020-05-01T23:50:20Z,2020-05-01T23:52:50Z,,\n"
                            "S1,1,2020-05-01T23:54:20Z,2020-05-02T00:00:50Z,,\n"
                            "B,2,2020-05-02T00:02:20Z,2020-05-02T00:04:50Z,,\n");
-    const auto file = morning.folder().write(
-        "day.toml", "[survey]\ntide='none'\noccupations='occupations.csv'\n");
-    const std::vector<SurveyFile> parts = by_unit(read_survey_file(file));
+    const std::vector<SurveyFile> parts = by_unit(survey_of(morning));
     REQUIRE(parts.size() == 2);
     CHECK(read_survey_inputs(parts[0]).list.windows.back().end ==
           Morning::kBegin + Morning::kExchange);
-    const OccupationRows first = read_survey(parts[0], [](std::size_t, std::size_t) {});
+    const OccupationRows first = read(parts[0]);
     REQUIRE(first.rows.size() == 2);
     CHECK(first.rows[1].end.value() <= Morning::kBegin + Morning::kExchange);
-    CHECK(read_survey(parts[1], [](std::size_t, std::size_t) {}).rows.size() == 1);
+    CHECK(read(parts[1]).rows.size() == 1);
 }
 
 TEST_CASE("a calibration is used for its sensor alone", "[survey][archive][units]") {
     const Morning morning(Morning::Sensors::exchanged);
-    const auto file = morning.folder().write(
-        "day.toml", "[survey]\ntide='none'\noccupations='occupations.csv'\n");
-    SurveyFile day = read_survey_file(file);
+    SurveyFile day = survey_of(morning);
     day.survey.calibration.emplace().serial_number = "00000777";
     const std::vector<SurveyFile> parts = by_unit(day);
     REQUIRE(parts.size() == 2);
     CHECK_FALSE(parts[0].survey.calibration);
     CHECK(parts[1].survey.calibration);
-    CHECK(read_survey(parts[0], [](std::size_t, std::size_t) {}).warnings.at(0) ==
+    CHECK(read(parts[0]).warnings.at(0) ==
           "the calibration is of the sensor 00000777: it is not used for the readings of 00000001");
 }

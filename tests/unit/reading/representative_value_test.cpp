@@ -105,8 +105,7 @@ TEST_CASE("temperature on another grid is refused") {
 }
 
 TEST_CASE("disturbed ends and a pulse do not change the value of either trend and are flagged") {
-    RepresentativeOptions options;
-    options.trend = GENERATE(TrendMethod::eemd, TrendMethod::smoother);
+    RepresentativeOptions options{.trend = GENERATE(TrendMethod::eemd, TrendMethod::smoother)};
     const auto level = [](double t) {
         return kGravity + std::sin(2.0 * std::numbers::pi * t / 500.0);
     };
@@ -123,29 +122,23 @@ TEST_CASE("disturbed ends and a pulse do not change the value of either trend an
     };
     // Noise of 1.8 mGal per 2 s sample, intervals of 5 minutes and more: 0.15 mGal for the mean.
     const double limit = 4.0 * 0.15;
-    SECTION("start") {
-        const auto value = value_of(with_pulse(quiet, 14.0, 10.0, pulse_mgal), options);
+    using Flag = OccupationFlag;
+    const struct {
+        double pulse_s;
+        Flag flag, other;
+        double from_s, to_s;
+    } cases[]{{14.0, Flag::disturbed_start, Flag::disturbed_end, 60.0, 1200.0},
+              {1170.0, Flag::disturbed_end, Flag::disturbed_start, -1.0, 1160.0},  // filters: 9.2 s
+              {300.0, Flag::pulse, Flag::disturbed_end, 310.0, 1200.0}};
+    for (const auto& expected : cases) {
+        CAPTURE(expected.pulse_s);
+        const auto value = value_of(with_pulse(quiet, expected.pulse_s, 10.0, pulse_mgal), options);
         REQUIRE(value);
-        CHECK(has(*value, OccupationFlag::disturbed_start));
-        CHECK_FALSE(has(*value, OccupationFlag::disturbed_end));
-        CHECK(value->interval_start > kSiteStart + from_seconds(60.0));
-        CHECK(std::abs(value->curve_mean.value() - mean_level(*value)) < limit);
-    }
-    SECTION("end") {
-        const auto value = value_of(with_pulse(quiet, 1170.0, 10.0, pulse_mgal), options);
-        REQUIRE(value);
-        CHECK(has(*value, OccupationFlag::disturbed_end));
-        CHECK_FALSE(has(*value, OccupationFlag::disturbed_start));
-        // The filters reach 9.2 s.
-        CHECK(value->interval_end < kSiteStart + from_seconds(1160.0));
-        CHECK(std::abs(value->curve_mean.value() - mean_level(*value)) < limit);
-    }
-    SECTION("inside") {
-        const auto value = value_of(with_pulse(quiet, 300.0, 10.0, pulse_mgal), options);
-        REQUIRE(value);
-        CHECK(has(*value, OccupationFlag::pulse));
-        CHECK(has(*value, OccupationFlag::disturbed_start));
-        CHECK(value->interval_start > kSiteStart + from_seconds(310.0));
+        CHECK(has(*value, expected.flag));
+        CHECK_FALSE(has(*value, expected.other));
+        CHECK(has(*value, Flag::disturbed_start) == (expected.flag != Flag::disturbed_end));
+        CHECK(value->interval_start > kSiteStart + from_seconds(expected.from_s));
+        CHECK(value->interval_end < kSiteStart + from_seconds(expected.to_s));
         CHECK(std::abs(value->curve_mean.value() - mean_level(*value)) < limit);
     }
 }
@@ -203,9 +196,7 @@ TEST_CASE("the norm in the published order contains the rectification bias that 
     const OccupationRecord record = {vibrating_axis(45'000, 0.0, 1.0, 7.3),
                                      vibrating_axis(45'000, 0.0, 1.0, 11.9), level.z,
                                      level.temperature};
-    RepresentativeOptions options;
-    options.norm = NormOrder::as_published;
-    const auto published = value_of(record, options);
+    const auto published = value_of(record, {.norm = NormOrder::as_published});
     const auto ours = value_of(record);
     CHECK(ours->curve_mean.value() == Approx(kGravity).margin(1e-3).epsilon(0));
     CHECK(published->curve_mean.value() - ours->curve_mean.value() ==
@@ -246,10 +237,8 @@ TEST_CASE("in the smoother's trend a wave of the cut-off period has half its hei
     const auto level = [](double t) {
         return kGravity + 4.0 * std::sin(2.0 * std::numbers::pi * t / 100.0);
     };
-    RepresentativeOptions options;
-    options.trend = TrendMethod::smoother;
-    options.cutoff_s = 100.0;
-    const auto value = value_of(make_record(1200, level, kConstantTemperature), options);
+    const auto value = value_of(make_record(1200, level, kConstantTemperature),
+                                {.trend = TrendMethod::smoother, .cutoff_s = 100.0});
     const auto& curve = value->curve.values();
     const auto middle = curve.begin() + static_cast<std::ptrdiff_t>(curve.size() / 2);
     const auto [least, most] = std::minmax_element(middle - 50, middle + 50);
@@ -264,8 +253,7 @@ TEST_CASE("a value of the smoother is flagged if its weights did not converge") 
         return levels[std::min(static_cast<std::size_t>(t / 2.0), levels.size() - 1)];
     };
     const auto record = make_record(70, level, kConstantTemperature);
-    RepresentativeOptions options;
-    options.cutoff_s = 24.0;
+    RepresentativeOptions options{.cutoff_s = 24.0};
     CHECK_FALSE(has(*value_of(record, options), OccupationFlag::unsettled));
     options.trend = TrendMethod::smoother;
     CHECK(has(*value_of(record, options), OccupationFlag::unsettled));
@@ -273,9 +261,7 @@ TEST_CASE("a value of the smoother is flagged if its weights did not converge") 
 
 TEST_CASE("a cut-off outside its range is refused") {
     const auto record = make_record(100, kConstantLevel, kConstantTemperature);
-    RepresentativeOptions options;
-    options.cutoff_s = 501.0;
-    CHECK_THROWS_AS(value_of(record, options), std::invalid_argument);
+    CHECK_THROWS_AS(value_of(record, {.cutoff_s = 501.0}), std::invalid_argument);
 }
 
 TEST_CASE("every flag has the same name as in the enumeration") {
