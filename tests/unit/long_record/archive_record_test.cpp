@@ -29,6 +29,12 @@ public:
         folder_.write("metadata/station.xml", station::to_station_xml(station));
     }
 
+    /// Adds twenty minutes of samples.
+    void add() {
+        add(0.0, 50.0);
+        add(kHalf_s, 50.0);
+    }
+
     /// Adds ten minutes of samples, beginning `from_s` after the start.
     void add(double from_s, double rate_hz) {
         add(from_s, rate_hz, {{"BN1", 0}, {"BN2", 0}, {"BNZ", 16'777'216}, {"BK1", -1975}});
@@ -95,8 +101,7 @@ double middle_mgal(const RecordStretch& stretch) { return stretch.quantity.at(15
 TEST_CASE("a new epoch with the same sensor and scales does not divide the record",
           "[long_record][archive]") {
     Root root;
-    root.add(0.0, 50.0);
-    root.add(kHalf_s, 50.0);
+    root.add();
     root.change("X0000001", 259);
     const LongRecord record = root.read();
     REQUIRE(record.stretches.size() == 1);
@@ -110,11 +115,9 @@ TEST_CASE("a new epoch with the same sensor and scales does not divide the recor
 TEST_CASE("the temperature of an outer oven is read beside the record, unless it has a gap",
           "[long_record][archive]") {
     Root root(true);
-    root.add(0.0, 50.0);
-    root.add(kHalf_s, 50.0);
+    root.add();
     const LongRecord without = root.read();
-    SegmentOptions options;
-    options.shortest = 10;
+    const SegmentOptions options{.shortest = 10};
     CHECK(divide_record(without, options).segments.at(0).outer_degc.empty());
     REQUIRE(without.warnings.size() == 1);
     CHECK_THAT(without.warnings[0], ContainsSubstring("outer oven has a gap"));
@@ -134,8 +137,7 @@ TEST_CASE("the temperature of an outer oven is read beside the record, unless it
 
 TEST_CASE("another sensor begins a new stretch, with a warning", "[long_record][archive]") {
     Root root;
-    root.add(0.0, 50.0);
-    root.add(kHalf_s, 50.0);
+    root.add();
     root.change("X0000002", 258);
     const LongRecord record = root.read();
     REQUIRE(record.stretches.size() == 2);
@@ -150,9 +152,7 @@ TEST_CASE("another sensor begins a new stretch, with a warning", "[long_record][
     REQUIRE(record.warnings.size() == 1);
     CHECK_THAT(record.warnings[0],
                StartsWith("from 2026-03-01T12:10:00") && ContainsSubstring("another sensor"));
-    SegmentOptions options;
-    options.shortest = 10;
-    const RecordSegments parts = divide_record(record, options);
+    const RecordSegments parts = divide_record(record, {.shortest = 10});
     REQUIRE(parts.segments.size() == 2);
     CHECK(parts.segments[1].serial_number == "X0000002");
     CHECK(parts.segments[1].begins_with == record.stretches[1].begins_with);
@@ -160,8 +160,7 @@ TEST_CASE("another sensor begins a new stretch, with a warning", "[long_record][
 
 TEST_CASE("samples are scaled by the epoch they belong to", "[long_record][archive]") {
     Root root;
-    root.add(0.0, 50.0);
-    root.add(kHalf_s, 50.0);
+    root.add();
     root.change("X0000001", 259);
     root.halve_scale();
     const LongRecord record = root.read();

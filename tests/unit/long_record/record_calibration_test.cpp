@@ -23,15 +23,6 @@ Eigen::Matrix<double, 5, 1> true_values(const sim::TwoPathTruth& truth) {
     return values;
 }
 
-TwoPathFit fitted(const sim::scenario::Scenario& scenario, std::uint64_t seed) {
-    const RecordSegment segment = simulated_segment(scenario, seed);
-    return fit_two_paths(segment.temperature_degc, segment.quantity, kRecordStep_s, 900.0);
-}
-
-TwoPathFit fitted(const std::string& scenario, std::uint64_t seed) {
-    return fitted(sim::scenario::load_scenario(scenario), seed);
-}
-
 /// Returns the variance of the best-known direction, in units of the priors' variances.
 double best_variance(const ThermalResponse& response) {
     Eigen::Matrix<double, 5, 5> scaled = response.covariance;

@@ -103,15 +103,6 @@ TEST_CASE("values that no sensor sends are refused with the remedy", "[long_reco
                                             ContainsSubstring("a351-correct retime --profile"));
 }
 
-TEST_CASE("a dead sensor is named as stuck, not as one with a wrong profile", "[long_record][segments]") {
-    LongRecord record = night();
-    record.stretches[0].axes_mgal.assign(3, std::vector<double>(record.stretches[0].size(), 0.0));
-    const RecordSegments parts = divide_record(record);
-    CHECK(parts.segments.empty());
-    REQUIRE(parts.refused.size() == 3);
-    CHECK(parts.refused[0].reason == "the x axis is stuck at 0.0000 mGal");
-}
-
 TEST_CASE("a stuck temperature is refused with its value, and so is a remainder that is too short",
           "[long_record][segments]") {
     LongRecord record = night();
@@ -147,19 +138,23 @@ TEST_CASE("a coarse thermometer in a good oven is not stuck, but one that contin
     CHECK(divide_record(record).segments.empty());
 }
 
-TEST_CASE("a record without samples has no segments", "[long_record][segments]") {
-    LongRecord record = night();
-    erase(record, 0, 2160);
-    CHECK(divide_record(record).segments.empty());
-}
-
-TEST_CASE("a stuck acceleration is refused", "[long_record][segments]") {
-    LongRecord record = night();
-    record.stretches[0].quantity.assign(2160, 979763.0);
-    const RecordSegments parts = divide_record(record);
-    CHECK(parts.segments.empty());
-    REQUIRE(parts.refused.size() == 1);
-    CHECK(parts.refused[0].reason == "the acceleration is stuck at 979763.0000 mGal");
+TEST_CASE(
+    "a record without samples, a dead sensor and a stuck acceleration give no segment, and "
+    "what is stuck is named",
+    "[long_record][segments]") {
+    LongRecord empty = night(), dead = night(), stuck = night();
+    erase(empty, 0, 2160);
+    CHECK(divide_record(empty).segments.empty());
+    dead.stretches[0].axes_mgal.assign(3, std::vector<double>(2160, 0.0));
+    stuck.stretches[0].quantity.assign(2160, 979763.0);
+    for (const auto& [record, count, reason] :
+         {std::tuple(dead, 3U, "the x axis is stuck at 0.0000 mGal"),
+          {stuck, 1U, "the acceleration is stuck at 979763.0000 mGal"}}) {
+        const RecordSegments parts = divide_record(record);
+        CHECK(parts.segments.empty());
+        REQUIRE(parts.refused.size() == count);
+        CHECK(parts.refused[0].reason == reason);
+    }
 }
 
 TEST_CASE("a stuck axis is refused, even if a changing tide was taken off the norm",

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "corrector/long_record/record_segments.hpp"
+#include "corrector/long_record/two_path_fit.hpp"
 #include "tests/support/plant_statistics.hpp"
 
 namespace a351::corrector::long_record {
@@ -25,6 +26,15 @@ inline RecordSegment simulated_segment(const sim::scenario::Scenario& scenario,
 
 inline RecordSegment simulated_segment(const std::string& scenario, std::uint64_t seed) {
     return simulated_segment(sim::scenario::load_scenario(scenario), seed);
+}
+
+inline TwoPathFit fitted(const sim::scenario::Scenario& scenario, std::uint64_t seed) {
+    const RecordSegment segment = simulated_segment(scenario, seed);
+    return fit_two_paths(segment.temperature_degc, segment.quantity, kRecordStep_s, 900.0);
+}
+
+inline TwoPathFit fitted(const std::string& scenario, std::uint64_t seed) {
+    return fitted(sim::scenario::load_scenario(scenario), seed);
 }
 
 }  // namespace a351::corrector::long_record

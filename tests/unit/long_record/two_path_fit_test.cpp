@@ -15,11 +15,6 @@ namespace {
 
 constexpr double k95 = 1.96;  // standard errors
 
-TwoPathFit fitted(const sim::scenario::Scenario& scenario, std::uint64_t seed) {
-    const RecordSegment segment = simulated_segment(scenario, seed);
-    return fit_two_paths(segment.temperature_degc, segment.quantity, kRecordStep_s, 900.0);
-}
-
 std::string words(const TwoPathFit& fit, const sim::TwoPathTruth& truth, TwoPathTerm term) {
     const FittedParameter& parameter = fit[term];
     return parameter.key + ' ' + std::to_string(parameter.value) + " +- " +
