@@ -1,8 +1,5 @@
 // Gravity so far by the program: `survey --json` on the data root of a made-up morning.
-#include <nlohmann/json.hpp>
 #include <set>
-#include "tests/support/catch.hpp"
-
 #include "protocol/events/event_log.hpp"
 #include "tests/unit/command/run_command.hpp"
 #include "tests/unit/reading/morning.hpp"

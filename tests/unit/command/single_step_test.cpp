@@ -1,9 +1,5 @@
 // The single steps of a351-correct as a script sees them: tide, emd, decimate, smooth.
 #include <cmath>
-#include "tests/support/catch.hpp"
-
-#include "protocol/text/csv.hpp"
-#include "protocol/text/text_file.hpp"
 #include "tests/unit/command/run_command.hpp"
 
 using namespace a351;
@@ -48,7 +44,7 @@ TEST_CASE("emd writes the modes and prints a summary of each", "[command]") {
     const Outcome outcome =
         run(folder, arguments + "modes.csv --ensemble 20 --pairs --ends mirror");
     CHECK(outcome.status == 0);
-    const auto modes = text::read_csv(folder.path() / "modes.csv");
+    const auto modes = table_of(folder, "modes.csv");
     REQUIRE(modes.row_count() == 200);
     for (std::size_t row = 0; row < 200; ++row) {
         double sum = modes.number(row, "residue");
@@ -64,9 +60,8 @@ TEST_CASE("emd writes the modes and prints a summary of each", "[command]") {
     for (std::size_t row = 0; row < 5; ++row) share += report.number(row, "energy_share");
     CHECK(share == Approx(1.0));
     CHECK(report.number(0, "standard_error") > 0.0);
-    const Outcome odd = run(folder, arguments + "odd.csv --pairs --ensemble 21");
-    CHECK(odd.status == 2);
-    CHECK_THAT(odd.errors, ContainsSubstring("--ensemble = 21; allowed with --pairs: an even"));
+    check_refused(run(folder, arguments + "odd.csv --pairs --ensemble 21"),
+                  "--ensemble = 21; allowed with --pairs: an even");
 }
 
 TEST_CASE("the option --s-number changes the modes of emd and is refused out of range",
@@ -83,9 +78,7 @@ TEST_CASE("the option --s-number changes the modes of emd and is refused out of 
     }
     CHECK(modes[0] != modes[1]);
     CHECK(modes[0] != modes[2]);
-    const Outcome refused = run(folder, arguments + "none.csv --s-number 0");
-    CHECK(refused.status == 2);
-    CHECK_THAT(refused.errors, ContainsSubstring("--s-number = 0"));
+    check_refused(run(folder, arguments + "none.csv --s-number 0"), "--s-number = 0");
 }
 
 TEST_CASE("decimate counts missing samples and writes the valid values", "[command]") {
@@ -101,7 +94,7 @@ TEST_CASE("decimate counts missing samples and writes the valid values", "[comma
     // nine into the gap.
     CHECK_THAT(outcome.errors,
                ContainsSubstring("1000 samples (1 missing) to 100 values (82 valid)"));
-    const auto table = text::read_csv(folder.path() / "out.csv");
+    const auto table = table_of(folder, "out.csv");
     REQUIRE(table.row_count() == 100);
     CHECK(table.number(50, "value") == Approx(7.0).epsilon(1e-14));
     CHECK(table.cell(60, "value").empty());
@@ -121,9 +114,7 @@ TEST_CASE("a blank line in a single column counts as a missing sample in every s
     const auto table = text::CsvTable::parse(smoothed.output, "stdout");
     CHECK(table.row_count() == 100);
     CHECK(table.number(40, "weight") == 0.0);
-    const Outcome refused = run(folder, "emd --output out.csv" + input);
-    CHECK(refused.status == 2);
-    CHECK_THAT(refused.errors, ContainsSubstring("in.csv:42: a = "));
+    check_refused(run(folder, "emd --output out.csv" + input), "in.csv:42: a = ");
 }
 
 TEST_CASE("each step refuses a gap in the times and times that go back", "[command]") {
@@ -153,9 +144,8 @@ TEST_CASE("each step refuses a gap in the times and times that go back", "[comma
         CHECK(over.status == 2);
         CHECK_THAT(over.errors, ContainsSubstring("gap.csv:32: ") &&
                                     ContainsSubstring("101 s after the row before it"));
-        const Outcome backward = run(folder, step + " --input back.csv --column a");
-        CHECK(backward.status == 2);
-        CHECK_THAT(backward.errors, ContainsSubstring("not after the row before it"));
+        check_refused(run(folder, step + " --input back.csv --column a"),
+                      "not after the row before it");
     }
 }
 
@@ -174,14 +164,11 @@ TEST_CASE("smooth and decimate refuse too few samples, and samples whose squares
     folder.write("two.csv", "a,b\n1,0\n,0\n2,0\n");
     for (const std::string command : {"smooth --cutoff 5", "decimate --factor 2"}) {
         const Outcome huge = run(folder, command + " --input huge.csv --column a");
-        CHECK(huge.status == 2);
-        CHECK_THAT(huge.errors,
-                   ContainsSubstring("huge.csv:3: a = 1.2e308: out of range; allowed:"));
+        check_refused(huge, "huge.csv:3: a = 1.2e308: out of range; allowed:");
         CHECK(huge.output.empty());
     }
-    const Outcome two = run(folder, "smooth --cutoff 5 --input two.csv --column a");
-    CHECK(two.status == 2);
-    CHECK_THAT(two.errors, ContainsSubstring("two.csv: a: 2 samples; allowed: 3 or more"));
+    check_refused(run(folder, "smooth --cutoff 5 --input two.csv --column a"),
+                  "two.csv: a: 2 samples; allowed: 3 or more");
 }
 
 TEST_CASE("a time column with unequal steps is refused at the row where the step changes",
@@ -189,9 +176,7 @@ TEST_CASE("a time column with unequal steps is refused at the row where the step
     const test::TemporaryDirectory folder;
     const auto refused = [&](const std::string& times, const std::string& place) {
         folder.write("in.csv", times);
-        const Outcome outcome = run(folder, "smooth --cutoff 3 --input in.csv --column a");
-        CHECK(outcome.status == 2);
-        CHECK_THAT(outcome.errors, ContainsSubstring(place));
+        check_refused(run(folder, "smooth --cutoff 3 --input in.csv --column a"), place);
     };
     refused("time_s,a\n0,1\n2,1\n3,2\n4,1\n5,1\n",
             "in.csv:4: time_s = 3: 1 s after the row before it");
