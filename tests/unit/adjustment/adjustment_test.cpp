@@ -105,8 +105,7 @@ double relative(test::Real ours, test::Real theirs) {
 
 }  // namespace
 
-TEST_CASE("values, covariance and predictions of random campaigns are those of a dense QR",
-          "[adjustment]") {
+TEST_CASE("values, covariance and predictions of random campaigns are those of a dense QR") {
     const std::size_t campaigns = test::is_long() ? 500 : 60;
     std::size_t solved = 0;
     double worst = 0.0, largest_condition = 0.0;
@@ -154,7 +153,7 @@ TEST_CASE("values, covariance and predictions of random campaigns are those of a
               << " of its limit\n";
 }
 
-TEST_CASE("unknowns that depend on each other are named, and the others are not", "[adjustment]") {
+TEST_CASE("unknowns that depend on each other are named, and the others are not") {
     // Station 0 is held.  Station 1 hangs on a loop of its own (term 1), without a tie to station 0.
     Equations equations{3, 3, {}};
     const auto reading = [&](std::size_t station, std::size_t loop) {
@@ -174,7 +173,7 @@ TEST_CASE("unknowns that depend on each other are named, and the others are not"
     CHECK(Adjustment(equations).undetermined().empty());
 }
 
-TEST_CASE("two readings do not determine three terms, whatever rounding leaves", "[adjustment]") {
+TEST_CASE("two readings do not determine three terms, whatever rounding leaves") {
     // From a day that lost half of its stays, with a station left out.  The terms are the constant,
     // the temperature and its rate.
     Equations equations{0, 3, {}};
@@ -185,8 +184,7 @@ TEST_CASE("two readings do not determine three terms, whatever rounding leaves",
     CHECK_FALSE(Adjustment(equations).undetermined().empty());
 }
 
-TEST_CASE("errors have the scatter of the readings and the stated deviation of a prior",
-          "[adjustment]") {
+TEST_CASE("errors have the scatter of the readings and the stated deviation of a prior") {
     // A line y = b0 + b x with a prior of b.  By hand: var(b) = (Sxx s^2 / r^4 + 1 / p^2) /
     // (Sxx / r^2 + 1 / p^2)^2, with s the true and r the stated deviation of a reading.
     const std::vector<double> x{0.0, 1.0, 2.0, 3.0, 5.0, 8.0};

@@ -91,8 +91,8 @@ Offset offset_of(const Residuals& residuals, const Effect& effect) {
 
 }  // namespace
 
-TEST_CASE("an alternative is an update: sizes are those of least squares with one more column each",
-          "[adjustment][trials]") {
+TEST_CASE(
+    "an alternative is an update: sizes are those of least squares with one more column each") {
     const auto rows = line();
     const double sd_mgal = 0.005 * adjust(survey_of(rows)).adjustment.s0().value();
     const AdjustedSurvey adjusted = adjust(survey_of(rows, sd_mgal));
@@ -123,8 +123,7 @@ TEST_CASE("an alternative is an update: sizes are those of least squares with on
     }
 }
 
-TEST_CASE("the residuals with names put right are those of the survey with the right names",
-          "[adjustment][trials]") {
+TEST_CASE("the residuals with names put right are those of the survey with the right names") {
     const auto right = line();
     auto wrong = right;
     // Readings 0 (at A) and 6 (at D) under each other's name.
@@ -145,8 +144,8 @@ TEST_CASE("the residuals with names put right are those of the survey with the r
     CHECK(ours.u_mgal == Approx(expected.u_mgal).epsilon(0.3));
 }
 
-TEST_CASE("a standard deviation that is stated wrongly is replaced by the scatter of the readings",
-          "[adjustment][trials]") {
+TEST_CASE(
+    "a standard deviation that is stated wrongly is replaced by the scatter of the readings") {
     const auto rows = line();
     const double sd_mgal = 0.005 * adjust(survey_of(rows)).adjustment.s0().value();
     const AdjustedSurvey stated = adjust(survey_of(rows, sd_mgal));
@@ -163,7 +162,7 @@ TEST_CASE("a standard deviation that is stated wrongly is replaced by the scatte
     }
 }
 
-TEST_CASE("residuals that are drawn have the stated information", "[adjustment][trials]") {
+TEST_CASE("residuals that are drawn have the stated information") {
     const auto rows = line();
     const auto trials = white_trials(adjust(survey_of(rows)));
     const auto residuals = trials->residuals({}, {});
@@ -183,8 +182,7 @@ TEST_CASE("residuals that are drawn have the stated information", "[adjustment][
     CHECK(scatter / kDraws == Approx(residuals->dof()).epsilon(0.03));
 }
 
-TEST_CASE("a pause of a day continues a gravimeter's loop, a night begins another one",
-          "[adjustment][loops]") {
+TEST_CASE("a pause of a day continues a gravimeter's loop, a night begins another one") {
     std::vector<reading::SurveyRow> rows(4);
     const std::array hours{0.0, 6.8, 7.0, 19.9};  // pauses of tests/golden: usgs and igp
     for (std::size_t i = 0; i < rows.size(); ++i) {

@@ -5,7 +5,7 @@
 using namespace a351;
 using namespace a351::corrector::archive_series;
 
-TEST_CASE("a channel that is missing or in another unit is refused", "[epoch]") {
+TEST_CASE("a channel that is missing or in another unit is refused") {
     station::Metadata station;
     station.channels = {{"BN1", 1.0, 0.0, "m/s**2"},
                         {"BN2", 1.0, 0.0, "m/s**2"},

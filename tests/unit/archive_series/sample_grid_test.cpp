@@ -34,7 +34,7 @@ std::size_t missing(const std::vector<double>& values) {
 
 }  // namespace
 
-TEST_CASE("a window has the samples from its start up to, but not including, its end", "[grid]") {
+TEST_CASE("a window has the samples from its start up to, but not including, its end") {
     const std::vector<archive::Segment> segments{segment(kGridStart - 1s, 50.0, 10'000, 0)};
     const auto grid = sampling_grid(segments, kGridStart, kGridStart + 100s).value();
     CHECK(grid.origin == kGridStart);
@@ -45,7 +45,7 @@ TEST_CASE("a window has the samples from its start up to, but not including, its
     CHECK(values.back() == 1.0 + 2.0 * 5049);
 }
 
-TEST_CASE("a sensor off its nominal rate loses no samples and keeps its times", "[grid]") {
+TEST_CASE("a sensor off its nominal rate loses no samples and keeps its times") {
     const double ppm = GENERATE(-80.0, 0.0, 80.0);
     CAPTURE(ppm);
     const double rate_hz = 50.0 * (1.0 + 1e-6 * ppm);
@@ -59,7 +59,7 @@ TEST_CASE("a sensor off its nominal rate loses no samples and keeps its times", 
     CHECK(missing(values) == values.size() - 45'000);
 }
 
-TEST_CASE("a gap becomes missing samples of the same length", "[grid]") {
+TEST_CASE("a gap becomes missing samples of the same length") {
     const std::vector<archive::Segment> segments{
         segment(kGridStart, 50.0, 4000, 0), segment(kGridStart + 80s + 60ms, 50.0, 1000, 4003)};
     const auto grid = sampling_grid(segments, kGridStart, kGridStart + 100s).value();
@@ -70,14 +70,14 @@ TEST_CASE("a gap becomes missing samples of the same length", "[grid]") {
     CHECK(values[4003] == 1.0 + 2.0 * 4003);
 }
 
-TEST_CASE("a window without samples has no sampling grid", "[grid]") {
+TEST_CASE("a window without samples has no sampling grid") {
     const std::vector<archive::Segment> segments{segment(kGridStart, 50.0, 100, 0)};
     CHECK_FALSE(sampling_grid(segments, kGridStart + 10s, kGridStart + 20s).has_value());
     CHECK_FALSE(sampling_grid(segments, kGridStart - 20s, kGridStart).has_value());
     CHECK_FALSE(sampling_grid({}, kGridStart, kGridStart + 20s).has_value());
 }
 
-TEST_CASE("where samples overlap, the later segment in the list counts", "[grid]") {
+TEST_CASE("where samples overlap, the later segment in the list counts") {
     const std::vector<std::int32_t> earlier{1, 2, 3}, later{10, 20};
     std::vector<double> values(5, 7.0);
     fill(values, 100, {{earlier, 99}, {later, 101}, {later, 110}}, 2.0, 0.5);

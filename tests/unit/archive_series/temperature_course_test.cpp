@@ -25,8 +25,8 @@ archive::Segment segment(UtcTime start, std::int32_t first, std::int32_t second)
 
 }  // namespace
 
-TEST_CASE("the temperature course has means of whole minutes, without minutes that have no samples",
-          "[survey][temperature]") {
+TEST_CASE(
+    "the temperature course has means of whole minutes, without minutes that have no samples") {
     const auto course = temperature_course(
         {segment(kCourseStart, 2, 6), segment(kCourseStart + 10min, 8, 8)}, kCourseScale);
     REQUIRE(course.size() == 4);
@@ -39,8 +39,7 @@ TEST_CASE("the temperature course has means of whole minutes, without minutes th
     CHECK(temperature_course({}, kCourseScale).empty());
 }
 
-TEST_CASE("a course without gaps has a mean at least every ten minutes, begin and end included",
-          "[survey][temperature]") {
+TEST_CASE("a course without gaps has a mean at least every ten minutes, begin and end included") {
     const auto at = [](int minute) { return kCourseStart + minute * 1min; };
     std::vector<MinuteTemperature> course;
     for (const int minute : {0, 10, 20, 21}) course.push_back({at(minute), DegC(38.0)});
@@ -53,8 +52,7 @@ TEST_CASE("a course without gaps has a mean at least every ten minutes, begin an
     CHECK_FALSE(is_without_gaps({}, at(0), at(5)));
 }
 
-TEST_CASE("between two means the temperature is a straight line, outside them it is constant",
-          "[survey][temperature]") {
+TEST_CASE("between two means the temperature is a straight line, outside them it is constant") {
     const auto at = [](int second) { return kCourseStart + second * 1s; };
     const std::vector<MinuteTemperature> course{{at(0), DegC(38.0)}, {at(60), DegC(39.0)}};
     CHECK(interpolated(course, {at(-100), at(0), at(15), at(30), at(60), at(90)},

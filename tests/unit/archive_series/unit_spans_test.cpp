@@ -38,7 +38,7 @@ archive::Segment hour_from(UtcTime start) {
 
 }  // namespace
 
-TEST_CASE("a sensor that comes back has two spans, and other changes begin none", "[unit_spans]") {
+TEST_CASE("a sensor that comes back has two spans, and other changes begin none") {
     const auto spans =
         spans_of({{kNoon, "A"}, {kNoon + 1h, "B"}, {kNoon + 2h, "B"}, {kNoon + 3h, "A"}});
     REQUIRE(spans.size() == 3);
@@ -54,7 +54,7 @@ TEST_CASE("a sensor that comes back has two spans, and other changes begin none"
     CHECK(span_at(spans, kNoon + 100h).serial_number == "A");
 }
 
-TEST_CASE("a time without a serial number belongs to the sensor before it", "[unit_spans]") {
+TEST_CASE("a time without a serial number belongs to the sensor before it") {
     CHECK(spans_of({{kNoon, "A"}, {kNoon + 1h, ""}, {kNoon + 2h, "A"}}).size() == 1);
     const auto later = spans_of({{kNoon, ""}, {kNoon + 1h, "A"}});
     REQUIRE(later.size() == 1);
@@ -62,8 +62,7 @@ TEST_CASE("a time without a serial number belongs to the sensor before it", "[un
     CHECK(spans_of({{kNoon, ""}})[0].serial_number.empty());
 }
 
-TEST_CASE("the samples of other sensors are removed, those of the box's outer oven are not",
-          "[unit_spans]") {
+TEST_CASE("the samples of other sensors are removed, those of the box's outer oven are not") {
     const auto spans = spans_of({{kNoon, "A"}, {kNoon + 1h, "B"}});
     std::vector<archive::ChannelData> samples(5);
     for (archive::ChannelData& channel : samples)

@@ -45,7 +45,7 @@ GridRun resampled(const archive::Segment& segment, const UtcGrid& grid) {
 
 }  // namespace
 
-TEST_CASE("grid times are whole multiples of the period, also before 1970", "[export]") {
+TEST_CASE("grid times are whole multiples of the period, also before 1970") {
     CHECK(to_rfc3339(grid_time(50 * 86400LL + 1, 50), 3) == "1970-01-02T00:00:00.020Z");
     CHECK(to_rfc3339(grid_time(-1, 50), 3) == "1969-12-31T23:59:59.980Z");
     CHECK(to_rfc3339(grid_time(4, 3), 9) == "1970-01-01T00:00:01.333333333Z");
@@ -57,8 +57,7 @@ TEST_CASE("grid times are whole multiples of the period, also before 1970", "[ex
     }
 }
 
-TEST_CASE("sines up to 0.4 of the grid rate are reproduced within 1e-5 from a clock 100 ppm off",
-          "[export]") {
+TEST_CASE("sines up to 0.4 of the grid rate are reproduced within 1e-5 from a clock 100 ppm off") {
     for (const int rate_hz : {50, 10, 1}) {
         const UtcGrid grid(50.0, rate_hz);
         for (const double share : {0.001, 0.1, 0.2, 0.3, 0.4}) {
@@ -72,7 +71,7 @@ TEST_CASE("sines up to 0.4 of the grid rate are reproduced within 1e-5 from a cl
     }
 }
 
-TEST_CASE("frequencies that the lower rate cannot represent are reduced to 1e-4", "[export]") {
+TEST_CASE("frequencies that the lower rate cannot represent are reduced to 1e-4") {
     const UtcGrid grid(50.0, 10);
     for (const double frequency_hz : {6.0, 8.0, 14.0}) {
         double largest = 0.0;
@@ -83,7 +82,7 @@ TEST_CASE("frequencies that the lower rate cannot represent are reduced to 1e-4"
     }
 }
 
-TEST_CASE("a constant is unchanged on the grid", "[export]") {
+TEST_CASE("a constant is unchanged on the grid") {
     archive::Segment segment = sine(1.0, 20.0);
     for (auto& count : segment.counts) count = 16'777'215;
     for (const double value : resampled(segment, UtcGrid(50.0, 50)).values)
@@ -91,9 +90,8 @@ TEST_CASE("a constant is unchanged on the grid", "[export]") {
 }
 
 TEST_CASE(
-    "no value is computed if its filter reaches outside the segment, or outside the requested "
-    "range",
-    "[export]") {
+    "no value is computed if its filter reaches outside the segment, or outside the "
+    "requested range") {
     const archive::Segment segment = sine(1.0, 0.0);
     const UtcGrid grid(50.0, 50);
     const GridRun all = resampled(segment, grid);
@@ -109,7 +107,7 @@ TEST_CASE(
     CHECK(resampled(shortest, grid).values.empty());
 }
 
-TEST_CASE("a rate above that of the samples is refused", "[export]") {
+TEST_CASE("a rate above that of the samples is refused") {
     CHECK_THROWS_AS(UtcGrid(50.0, 51), std::invalid_argument);
     CHECK_THROWS_AS(UtcGrid(50.0, 0), std::invalid_argument);
 }

@@ -40,8 +40,7 @@ const wire::DeviceProfile& changed(const Changes& changes) {
 
 }  // namespace
 
-TEST_CASE("a profile with which no sensor can have recorded a journal is refused",
-          "[archive_series][profile]") {
+TEST_CASE("a profile with which no sensor can have recorded a journal is refused") {
     const archive::DataRoot root;
     record(root);
     const auto refused = [&](const Changes& changes, const std::string& value) {
@@ -60,9 +59,8 @@ TEST_CASE("a profile with which no sensor can have recorded a journal is refused
 }
 
 TEST_CASE(
-    "a right profile is not refused, although the axes were dead for a time or the line lost much, "
-    "and another product is named",
-    "[archive_series][profile]") {
+    "a right profile is not refused, although the axes were dead for a time or the line lost "
+    "much, and another product is named") {
     const archive::DataRoot root, carried, lossy;
     record(root);
     record(carried, 2400);

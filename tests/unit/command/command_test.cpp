@@ -16,7 +16,7 @@ bool has_result(const test::TemporaryDirectory& folder) {
 
 }  // namespace
 
-TEST_CASE("table corrects the published survey and writes the same bytes each time", "[command]") {
+TEST_CASE("table corrects the published survey and writes the same bytes each time") {
     const test::TemporaryDirectory folder;
     const Outcome first =
         run(folder, kTsukuba + "--model t-rate-drift --flags ignore --verbose --out a");
@@ -33,7 +33,7 @@ TEST_CASE("table corrects the published survey and writes the same bytes each ti
     }
 }
 
-TEST_CASE("table writes a report in the requested formats, the same bytes each time", "[command]") {
+TEST_CASE("table writes a report in the requested formats, the same bytes each time") {
     const test::TemporaryDirectory folder;
     const std::string arguments = kTsukuba + "--model paper --figures pdf --figures png --out ";
     const Outcome first = run(folder, arguments + "a");
@@ -56,7 +56,7 @@ TEST_CASE("table writes a report in the requested formats, the same bytes each t
                    ContainsSubstring("<svg"));
 }
 
-TEST_CASE("without a working gnuplot everything except the figures is written", "[command]") {
+TEST_CASE("without a working gnuplot everything except the figures is written") {
     const auto [script, reason] = GENERATE(table<std::string, std::string>({
         {"", "figures are missing: gnuplot is not installed (not in PATH)"},
         {"echo 'no fonts' >&2; exit 5", "gnuplot failed: no fonts; 4 more such"},
@@ -79,7 +79,7 @@ TEST_CASE("without a working gnuplot everything except the figures is written", 
                ContainsSubstring(reason) && ContainsSubstring("Repeated stations"));
 }
 
-TEST_CASE("the model paper prints its RMS before and after the drift step", "[command]") {
+TEST_CASE("the model paper prints its RMS before and after the drift step") {
     const test::TemporaryDirectory folder;
     const Outcome outcome = run(folder, kTsukuba + "--model paper --verbose");
     CHECK(outcome.status == 0);
@@ -90,8 +90,7 @@ TEST_CASE("the model paper prints its RMS before and after the drift step", "[co
     CHECK(json["in_sample"]["rms_mgal"].get<double>() == Approx(2.6249).margin(1e-4));
 }
 
-TEST_CASE("a network with one datum reports its deviation from the other known references",
-          "[command]") {
+TEST_CASE("a network with one datum reports its deviation from the other known references") {
     const test::TemporaryDirectory folder;
     const std::string arguments =
         kTsukuba + "--model network --datum No.0 --prior temperature_mgal_per_degc -29.274 0.001 ";
@@ -116,8 +115,7 @@ TEST_CASE("a network with one datum reports its deviation from the other known r
           text::read_text_file(folder.path() / "b/result.json"));
 }
 
-TEST_CASE("bad usage ends with status 2 and one line on standard error, and nothing is written",
-          "[command]") {
+TEST_CASE("bad usage ends with status 2 and one line on standard error, and nothing is written") {
     const test::TemporaryDirectory folder;
     folder.write("unknown.csv",
                  "site,occupation,time_utc,acceleration_mgal,temperature_degc\n"
@@ -210,8 +208,7 @@ TEST_CASE("bad usage ends with status 2 and one line on standard error, and noth
     CHECK_FALSE(has_result(folder));
 }
 
-TEST_CASE("a tide read from a file gives the same result as the model that wrote the file",
-          "[command]") {
+TEST_CASE("a tide read from a file gives the same result as the model that wrote the file") {
     const test::TemporaryDirectory folder;
     // Mean position of the calibration line, along which the tide differs by less than 0.0001 mGal.
     CHECK(run(folder,
@@ -240,8 +237,7 @@ TEST_CASE("a tide read from a file gives the same result as the model that wrote
     CHECK_FALSE(has_result(folder));
 }
 
-TEST_CASE("an output that is no regular file is refused, and a full disk gives status 1",
-          "[command]") {
+TEST_CASE("an output that is no regular file is refused, and a full disk gives status 1") {
     const test::TemporaryDirectory folder;
     const std::string tide =
         "tide --latitude 40 --longitude 140 --height 0 --from 2015-04-23T00:00:00Z --to "
@@ -261,7 +257,7 @@ TEST_CASE("an output that is no regular file is refused, and a full disk gives s
     CHECK_THAT(full.errors, StartsWith("a351-correct: standard output: cannot be written"));
 }
 
-TEST_CASE("help and version are written to standard output with status 0", "[command]") {
+TEST_CASE("help and version are written to standard output with status 0") {
     const test::TemporaryDirectory folder;
     CHECK(run(folder, "--version").output == "a351-correct " A351_VERSION "\n");
     const Outcome help = run(folder, "tide --help");

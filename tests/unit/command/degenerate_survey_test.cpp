@@ -37,8 +37,7 @@ void check_value(const text::CsvTable& table, std::size_t row) {
 
 }  // namespace
 
-TEST_CASE("an occupation without data stays in the table, and the others are computed",
-          "[degenerate]") {
+TEST_CASE("an occupation without data stays in the table, and the others are computed") {
     const Morning morning;
     list(morning, kB + kS1 + kS2 + "S1,2,2020-05-02T00:01:00Z,2020-05-02T00:02:00Z,,\n" + kB2 +
                       "S2,2,2020-05-02T03:00:00Z,2020-05-02T03:10:00Z,,\n");
@@ -63,7 +62,7 @@ TEST_CASE("an occupation without data stays in the table, and the others are com
           R"("site":"S2","start_utc":"2020-05-02T03:00:00.000Z"}])");
 }
 
-TEST_CASE("a day whose second half is missing is corrected from its first half", "[degenerate]") {
+TEST_CASE("a day whose second half is missing is corrected from its first half") {
     const Morning morning;
     std::size_t removed = 0;
     for (const auto& entry :
@@ -84,8 +83,7 @@ TEST_CASE("a day whose second half is missing is corrected from its first half",
     CHECK(json_of(morning.folder())["in_sample"]["n"] == 3);
 }
 
-TEST_CASE("a lost base and a lost datum station are reported, and other stations replace them",
-          "[degenerate]") {
+TEST_CASE("a lost base and a lost datum station are reported, and other stations replace them") {
     const Morning morning;
     list(morning, "B,1,2020-05-01T20:50:20Z,2020-05-01T20:52:50Z,,\n" + kS1 + kS2);
     const Outcome outcome = correct(morning, "base='B'\ndatum=['B','S1','S2']\nmodel='t'\n");
@@ -97,8 +95,7 @@ TEST_CASE("a lost base and a lost datum station are reported, and other stations
     check_refused(paper, "base = B: no occupation of this site");
 }
 
-TEST_CASE("the temperature file of the day before is listed among the inputs with its checksum",
-          "[degenerate]") {
+TEST_CASE("the temperature file of the day before is listed among the inputs with its checksum") {
     const Morning morning;  // its archive has a file on each side of midnight
     list(morning, "S2,1,2020-05-02T00:01:05Z,2020-05-02T00:01:58Z,,\n" + kB2);
     REQUIRE(correct(morning, "model='t'\n").status == 0);
@@ -124,8 +121,7 @@ TEST_CASE("the temperature file of the day before is listed among the inputs wit
     CHECK(count == 5);
 }
 
-TEST_CASE("one bad day of three is reported, and the others and the joint table are written",
-          "[degenerate]") {
+TEST_CASE("one bad day of three is reported, and the others and the joint table are written") {
     const Morning morning;
     const auto& folder = morning.folder();
     folder.write("late.csv", kHeader + "B,1,2021-05-01T23:50:20Z,2021-05-01T23:52:50Z,,\n");
@@ -157,7 +153,7 @@ TEST_CASE("one bad day of three is reported, and the others and the joint table 
     CHECK_FALSE(std::filesystem::exists(folder.path() / "none"));
 }
 
-TEST_CASE("swapped times and overlaps exclude only the occupations concerned", "[degenerate]") {
+TEST_CASE("swapped times and overlaps exclude only the occupations concerned") {
     const Morning morning;
     list(morning, kB + kS1 + kS2 + kB2 +
                       "S1,2,2020-05-02T00:01:50Z,2020-05-02T00:01:10Z,,\n"
@@ -177,7 +173,7 @@ TEST_CASE("swapped times and overlaps exclude only the occupations concerned", "
                           "at 2020-05-02T00:01:10Z"));
 }
 
-TEST_CASE("an amendment corrects swapped times without changing the data", "[degenerate]") {
+TEST_CASE("an amendment corrects swapped times without changing the data") {
     const Morning morning;
     list(morning, kB + "S1,1,2020-05-01T23:56:50Z,2020-05-01T23:54:20Z,,\n" + kS2 + kB2);
     morning.folder().write("amendments.toml",
@@ -200,8 +196,7 @@ TEST_CASE("an amendment corrects swapped times without changing the data", "[deg
     CHECK(json_of(morning.folder())["inputs"][4]["role"] == "amendments");
 }
 
-TEST_CASE("a site without coordinates gets the tide of the mean position and is reported",
-          "[degenerate]") {
+TEST_CASE("a site without coordinates gets the tide of the mean position and is reported") {
     const Morning morning;
     correct(morning, "", "--out whole");
     morning.folder().write("sites.csv",
@@ -221,9 +216,8 @@ TEST_CASE("a site without coordinates gets the tide of the mean position and is 
 }
 
 TEST_CASE(
-    "a survey with only one usable occupation is refused in one line that says why the others are "
-    "left out",
-    "[degenerate]") {
+    "a survey with only one usable occupation is refused in one line that says why the "
+    "others are left out") {
     const Morning morning;
     list(morning, kB + "S1,1,2020-05-02T03:00:00Z,2020-05-02T03:10:00Z,,\n");
     const Outcome outcome = correct(morning);
@@ -235,7 +229,7 @@ TEST_CASE(
     CHECK_FALSE(std::filesystem::exists(morning.folder().path() / "result"));
 }
 
-TEST_CASE("the tide of a survey can come from its occupations or from a file", "[degenerate]") {
+TEST_CASE("the tide of a survey can come from its occupations or from a file") {
     const Morning morning;
     morning.folder().write("occupations.csv",
                            "site,occupation,start_utc,end_utc,earth_tide_mgal\n"
@@ -254,8 +248,7 @@ TEST_CASE("the tide of a survey can come from its occupations or from a file", "
     CHECK(table_of(morning.folder()).number(2, "tide_mgal") == 0.0);
 }
 
-TEST_CASE("a wrong input file of a survey gives status 2 and one line, and nothing is written",
-          "[degenerate]") {
+TEST_CASE("a wrong input file of a survey gives status 2 and one line, and nothing is written") {
     const Morning morning;
     const auto& folder = morning.folder();
     folder.write("stray.toml", "[[exclude]]\nsite='S9'\noccupation=1\nreason='r'\n");

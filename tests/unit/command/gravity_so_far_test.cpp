@@ -38,7 +38,7 @@ nlohmann::json so_far(const Morning& morning, const std::string& options = "") {
 
 }  // namespace
 
-TEST_CASE("the gravity so far has each stay's value, and nothing is written", "[so_far]") {
+TEST_CASE("the gravity so far has each stay's value, and nothing is written") {
     const Morning morning;
     for (std::size_t i = 0; i < 4; ++i) log_stay(morning, i);
     const auto before = files_of(morning);
@@ -60,7 +60,7 @@ TEST_CASE("the gravity so far has each stay's value, and nothing is written", "[
     CHECK(answer.at("data_to_utc").is_string());
 }
 
-TEST_CASE("each reason for which there is no gravity so far has its code", "[so_far]") {
+TEST_CASE("each reason for which there is no gravity so far has its code") {
     const Morning morning;
     const auto reason = [&] { return so_far(morning).at("reason"); };
     CHECK(reason() == "no_stay");
@@ -80,8 +80,7 @@ TEST_CASE("each reason for which there is no gravity so far has its code", "[so_
     CHECK(reason() == "no_metadata");
 }
 
-TEST_CASE("a data root takes its sites from --sites, or from the folder that contains it",
-          "[so_far]") {
+TEST_CASE("a data root takes its sites from --sites, or from the folder that contains it") {
     const Morning morning;
     for (std::size_t i = 0; i < 4; ++i) log_stay(morning, i);
     std::filesystem::rename(morning.folder().path() / "sites.csv",

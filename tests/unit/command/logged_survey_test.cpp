@@ -51,8 +51,7 @@ std::vector<events::Event> whole_morning() {
 
 }  // namespace
 
-TEST_CASE("a stop logged before its start excludes that occupation, which keeps its number",
-          "[logged]") {
+TEST_CASE("a stop logged before its start excludes that occupation, which keeps its number") {
     const Morning morning;
     auto late = start(0), early = stop(0);
     std::swap(late.utc, early.utc);
@@ -67,8 +66,7 @@ TEST_CASE("a stop logged before its start excludes that occupation, which keeps 
 }
 
 TEST_CASE(
-    "a start before the stop of the previous occupation ends that one, with a warning and a flag",
-    "[logged]") {
+    "a start before the stop of the previous occupation ends that one, with a warning and a flag") {
     const Morning morning;
     const Outcome outcome =
         correct(morning, {start(0), stop(0), start(1), start(2), stop(2), start(3), stop(3)});
@@ -81,7 +79,7 @@ TEST_CASE(
                ContainsSubstring("S1 (1) has no stop: it lasts until the next start"));
 }
 
-TEST_CASE("the order in which events were logged does not change the survey", "[logged]") {
+TEST_CASE("the order in which events were logged does not change the survey") {
     const Morning morning;
     const Outcome outcome = correct(
         morning, {start(3), stop(3), start(1), stop(1), start(0), stop(0), start(2), stop(2)});
@@ -90,8 +88,7 @@ TEST_CASE("the order in which events were logged does not change the survey", "[
     CHECK(rows_of(morning) == Rows{"B (1) ", "S1 (1) ", "S2 (1) ", "B (2) "});
 }
 
-TEST_CASE("the last day of a recorder's log is corrected, unless another time is requested",
-          "[logged]") {
+TEST_CASE("the last day of a recorder's log is corrected, unless another time is requested") {
     const Morning morning;
     std::vector<events::Event> events = whole_morning();
     for (std::size_t i = 0; i < 2; ++i) events[i].utc -= std::chrono::hours(24);
@@ -114,8 +111,7 @@ TEST_CASE("the last day of a recorder's log is corrected, unless another time is
                   "from_utc = 2020-05-02T00:00:00Z");
 }
 
-TEST_CASE("an option overrides the survey file, and the result records the setting that was used",
-          "[logged]") {
+TEST_CASE("an option overrides the survey file, and the result records the setting that was used") {
     const Morning morning;
     morning.folder().write(
         "day.toml", "[survey]\noccupations = 'occupations.csv'\nmodel = 't'\ntrend = 'smoother'\n");
@@ -137,8 +133,7 @@ TEST_CASE("an option overrides the survey file, and the result records the setti
 }
 
 TEST_CASE(
-    "a damaged archive record is reported with file and offset, and the day is still corrected",
-    "[logged]") {
+    "a damaged archive record is reported with file and offset, and the day is still corrected") {
     const Morning morning;
     const auto file =
         morning.folder().path() / "data/archive/2020/XX/A351/BNZ.D/XX.A351.00.BNZ.D.2020.122";

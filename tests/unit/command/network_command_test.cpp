@@ -76,8 +76,7 @@ std::map<std::string, double> coefficients(const test::TemporaryDirectory& folde
 
 }  // namespace
 
-TEST_CASE("table finds a known quadratic drift and the unknown stations of a network",
-          "[network_command]") {
+TEST_CASE("table finds a known quadratic drift and the unknown stations of a network") {
     const test::TemporaryDirectory folder;
     write_sites(folder);
     write_readings(folder, {kDay});
@@ -102,8 +101,7 @@ TEST_CASE("table finds a known quadratic drift and the unknown stations of a net
     CHECK(std::abs(bent.number(1, "gravity_mgal") - gravity_mgal("S1")) > 0.1);
 }
 
-TEST_CASE("table fits the whole effect of the air pressure, not what another value has left",
-          "[network_command]") {
+TEST_CASE("table fits the whole effect of the air pressure, not what another value has left") {
     const test::TemporaryDirectory folder;
     write_sites(folder);
     write_readings(folder, {kDay}, false, -0.0005);
@@ -114,8 +112,7 @@ TEST_CASE("table fits the whole effect of the air pressure, not what another val
           Approx(-0.0005).epsilon(0).margin(1e-7));
 }
 
-TEST_CASE("a network with something undetermined is refused in one line that names it",
-          "[network_command]") {
+TEST_CASE("a network with something undetermined is refused in one line that names it") {
     const test::TemporaryDirectory folder;
     const struct {
         bool has_datum;
@@ -140,8 +137,7 @@ TEST_CASE("a network with something undetermined is refused in one line that nam
     }
 }
 
-TEST_CASE("a network with a weak part is adjusted, and text and report name the weakness",
-          "[network_command]") {
+TEST_CASE("a network with a weak part is adjusted, and text and report name the weakness") {
     const test::TemporaryDirectory folder;
     write_sites(folder);
     for (const auto& [loop, is_steady, words] :
@@ -163,8 +159,7 @@ TEST_CASE("a network with a weak part is adjusted, and text and report name the 
     }
 }
 
-TEST_CASE("t-drift refuses a constant temperature, and a drift from one base occupation",
-          "[network_command]") {
+TEST_CASE("t-drift refuses a constant temperature, and a drift from one base occupation") {
     const test::TemporaryDirectory folder;
     write_sites(folder);
     write_readings(folder, {{"B", "S1", "S2", "B", "S3", "B"}}, true);

@@ -14,7 +14,7 @@ void write_sine_on_a_slope(const test::TemporaryDirectory& folder) {
 
 }  // namespace
 
-TEST_CASE("tide writes times and the effect on gravity", "[command]") {
+TEST_CASE("tide writes times and the effect on gravity") {
     const test::TemporaryDirectory folder;
     const std::string arguments =
         "tide --latitude 40.7914 --longitude 282.1414 --height 370 --from 2015-04-23T00:00:00Z "
@@ -37,7 +37,7 @@ TEST_CASE("tide writes times and the effect on gravity", "[command]") {
     CHECK(text::read_text_file(folder.path() / "tide.csv") == outcome.output);
 }
 
-TEST_CASE("emd writes the modes and prints a summary of each", "[command]") {
+TEST_CASE("emd writes the modes and prints a summary of each") {
     const test::TemporaryDirectory folder;
     write_sine_on_a_slope(folder);
     const std::string arguments = "emd --input in.csv --column v --modes 4 --output ";
@@ -64,8 +64,7 @@ TEST_CASE("emd writes the modes and prints a summary of each", "[command]") {
                   "--ensemble = 21; allowed with --pairs: an even");
 }
 
-TEST_CASE("the option --s-number changes the modes of emd and is refused out of range",
-          "[command]") {
+TEST_CASE("the option --s-number changes the modes of emd and is refused out of range") {
     const test::TemporaryDirectory folder;
     write_sine_on_a_slope(folder);
     const std::string arguments =
@@ -81,7 +80,7 @@ TEST_CASE("the option --s-number changes the modes of emd and is refused out of 
     check_refused(run(folder, arguments + "none.csv --s-number 0"), "--s-number = 0");
 }
 
-TEST_CASE("decimate counts missing samples and writes the valid values", "[command]") {
+TEST_CASE("decimate counts missing samples and writes the valid values") {
     const test::TemporaryDirectory folder;
     std::string rows = "time_s,a\n";
     for (int i = 0; i < 1000; ++i) rows += std::to_string(i) + (i == 600 ? ",\n" : ",7\n");
@@ -101,7 +100,7 @@ TEST_CASE("decimate counts missing samples and writes the valid values", "[comma
     CHECK(table.cell(60, "valid") == "0");
 }
 
-TEST_CASE("a blank line in a single column counts as a missing sample in every step", "[command]") {
+TEST_CASE("a blank line in a single column counts as a missing sample in every step") {
     const test::TemporaryDirectory folder;
     std::string rows = "a\n";
     for (int i = 0; i < 100; ++i) rows += i == 40 ? "\n" : std::to_string(i % 7) + "\n";
@@ -117,7 +116,7 @@ TEST_CASE("a blank line in a single column counts as a missing sample in every s
     check_refused(run(folder, "emd --output out.csv" + input), "in.csv:42: a = ");
 }
 
-TEST_CASE("each step refuses a gap in the times and times that go back", "[command]") {
+TEST_CASE("each step refuses a gap in the times and times that go back") {
     // After PyEMD #79 and #85.
     const test::TemporaryDirectory folder;
     const char* const time = GENERATE("time", "time_utc", "time_s");
@@ -149,7 +148,7 @@ TEST_CASE("each step refuses a gap in the times and times that go back", "[comma
     }
 }
 
-TEST_CASE("smooth reports that its weights did not converge", "[command]") {
+TEST_CASE("smooth reports that its weights did not converge") {
     const test::TemporaryDirectory folder;
     folder.write("in.csv", "a\n57\n50\n60\n1\n11\n5\n5\n2\n6\n9\n7\n4\n");
     const Outcome outcome = run(folder, "smooth --cutoff 10 --input in.csv --column a");
@@ -157,8 +156,7 @@ TEST_CASE("smooth reports that its weights did not converge", "[command]") {
     CHECK_THAT(outcome.errors, ContainsSubstring("did not converge"));
 }
 
-TEST_CASE("smooth and decimate refuse too few samples, and samples whose squares overflow",
-          "[command]") {
+TEST_CASE("smooth and decimate refuse too few samples, and samples whose squares overflow") {
     const test::TemporaryDirectory folder;
     folder.write("huge.csv", "a\n1\n1.2e308\n-1.2e308\n3\n");
     folder.write("two.csv", "a,b\n1,0\n,0\n2,0\n");
@@ -171,8 +169,7 @@ TEST_CASE("smooth and decimate refuse too few samples, and samples whose squares
                   "two.csv: a: 2 samples; allowed: 3 or more");
 }
 
-TEST_CASE("a time column with unequal steps is refused at the row where the step changes",
-          "[command]") {
+TEST_CASE("a time column with unequal steps is refused at the row where the step changes") {
     const test::TemporaryDirectory folder;
     const auto refused = [&](const std::string& times, const std::string& place) {
         folder.write("in.csv", times);
@@ -186,7 +183,7 @@ TEST_CASE("a time column with unequal steps is refused at the row where the step
     CHECK(run(folder, "smooth --cutoff 3 --input in.csv --column a").status == 0);
 }
 
-TEST_CASE("smooth follows a straight line through a gap and an outlier", "[command]") {
+TEST_CASE("smooth follows a straight line through a gap and an outlier") {
     const test::TemporaryDirectory folder;
     std::string rows = "a\n";
     for (int i = 0; i < 100; ++i)

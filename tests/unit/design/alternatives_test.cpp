@@ -23,7 +23,7 @@ const Alternative* named(const std::vector<Alternative>& list, const std::string
 
 }  // namespace
 
-TEST_CASE("each alternative is a plan that has the uncertainty it promises", "[design]") {
+TEST_CASE("each alternative is a plan that has the uncertainty it promises") {
     const auto sites = made_up_sites();
     const Plan plan = made_up_plan("ABCD");
     const MilliGal u = expected_errors(plan, sites, usual_unit()).u_unknown;
@@ -42,8 +42,7 @@ TEST_CASE("each alternative is a plan that has the uncertainty it promises", "[d
     }
 }
 
-TEST_CASE("two set-ups of half the length cost no time and are proposed with their effect",
-          "[design]") {
+TEST_CASE("two set-ups of half the length cost no time and are proposed with their effect") {
     const auto list = found_for(made_up_plan());
     const Alternative* const half = named(list, "two set-ups of half the length at each visit: ");
     REQUIRE(half != nullptr);
@@ -53,7 +52,7 @@ TEST_CASE("two set-ups of half the length cost no time and are proposed with the
     CHECK(named(found_for(made_up_plan("ABCDA", 1, 5.0)), "two set-ups of half") == nullptr);
 }
 
-TEST_CASE("a visit that is added delays all later ones", "[design]") {
+TEST_CASE("a visit that is added delays all later ones") {
     const auto list = found_for(made_up_plan("ABCD"));
     const Alternative* const back = named(list, "a return to A at the end: ");
     REQUIRE(back != nullptr);
@@ -67,13 +66,13 @@ TEST_CASE("a visit that is added delays all later ones", "[design]") {
     CHECK(other->plan == made_up_plan("ABCKD"));
 }
 
-TEST_CASE("what the plan has already is not proposed", "[design]") {
+TEST_CASE("what the plan has already is not proposed") {
     const auto list = found_for(made_up_plan("ABACKDA"));
     CHECK(named(list, "a return to A at the end") == nullptr);
     CHECK(named(list, "K, which is known too") == nullptr);
 }
 
-TEST_CASE("turning the box is proposed with its effect", "[design][faces]") {
+TEST_CASE("turning the box is proposed with its effect") {
     const auto sites = made_up_sites();
     const auto found_with = [&](const Plan& plan, const unit::ScaleShare& share) {
         PlannedUnit unit = usual_unit();

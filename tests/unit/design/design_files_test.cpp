@@ -9,7 +9,7 @@
 using namespace a351;
 using namespace a351::corrector::design;
 
-TEST_CASE("files, text and JSON of a design agree", "[design]") {
+TEST_CASE("files, text and JSON of a design agree") {
     const Design design = make_design(made_up_plan(), made_up_sites(), usual_unit());
     const auto files = design_files(design, {{"plan", "plan.csv", 10, 1}});
     REQUIRE(files.size() == 3);

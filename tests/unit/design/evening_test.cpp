@@ -38,8 +38,7 @@ model::SurveyCorrection corrected(const Plan& plan, double u_mgal) {
 
 }  // namespace
 
-TEST_CASE("the uncertainty in the evening is that of the visits so far and a return to the base",
-          "[design]") {
+TEST_CASE("the uncertainty in the evening is that of the visits so far and a return to the base") {
     for (const int set_ups : {1, 2}) {
         const double each_min = 12.0 / set_ups;
         const Plan so_far = made_up_plan("AB", set_ups, each_min);
@@ -57,8 +56,7 @@ TEST_CASE("the uncertainty in the evening is that of the visits so far and a ret
     }
 }
 
-TEST_CASE("there is no uncertainty in the evening without a running stay at an unknown station",
-          "[design]") {
+TEST_CASE("there is no uncertainty in the evening without a running stay at an unknown station") {
     auto day = corrected(made_up_plan("ABA"), 3.0);
     CHECK(!u_in_the_evening(day, made_up_sites(), "2"));     // known
     CHECK(!u_in_the_evening(day, made_up_sites(), "1"));     // not the last

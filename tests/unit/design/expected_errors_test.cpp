@@ -11,7 +11,7 @@ using namespace a351;
 using namespace a351::corrector;
 using namespace a351::corrector::design;
 
-TEST_CASE("placement alone adds the variances of both stations' means", "[design]") {
+TEST_CASE("placement alone adds the variances of both stations' means") {
     // u^2 = placement^2 (1 / set-ups of the station + 1 / set-ups of the only datum)
     const PlannedUnit unit = known_unit({1.5, 1e-6, 1e-3});
     for (const int set_ups : {1, 2, 5}) {
@@ -31,7 +31,7 @@ TEST_CASE("placement alone adds the variances of both stations' means", "[design
     }
 }
 
-TEST_CASE("an uncertain reference adds its variance to every unknown station", "[design]") {
+TEST_CASE("an uncertain reference adds its variance to every unknown station") {
     const PlannedUnit unit = known_unit({1.0, 1e-6, 1e-3});
     auto sites = made_up_sites();
     const MilliGal before = u_of(expected_errors(made_up_plan(), sites, unit), "C");
@@ -41,7 +41,7 @@ TEST_CASE("an uncertain reference adds its variance to every unknown station", "
     CHECK(u_of(errors, "C").value() == Approx(std::hypot(2.0, before.value())).epsilon(1e-3));
 }
 
-TEST_CASE("noise twice as large makes uncertainties twice as large, at any length", "[design]") {
+TEST_CASE("noise twice as large makes uncertainties twice as large, at any length") {
     const auto sites = made_up_sites();
     for (const double minutes : {3.0, 12.0}) {
         const Plan plan = made_up_plan("ABCDA", 1, minutes);
@@ -51,7 +51,7 @@ TEST_CASE("noise twice as large makes uncertainties twice as large, at any lengt
     }
 }
 
-TEST_CASE("the sources of a station's uncertainty add up to it", "[design]") {
+TEST_CASE("the sources of a station's uncertainty add up to it") {
     const ExpectedErrors errors = expected_errors(made_up_plan(), made_up_sites(), usual_unit());
     for (const ExpectedStation& station : errors.stations) {
         double sum = 0.0;
@@ -61,7 +61,7 @@ TEST_CASE("the sources of a station's uncertainty add up to it", "[design]") {
     }
 }
 
-TEST_CASE("eight times as many courses of the temperature give the same uncertainty", "[design]") {
+TEST_CASE("eight times as many courses of the temperature give the same uncertainty") {
     const auto sites = made_up_sites();
     const PlannedUnit unit = usual_unit();
     const Plan plan = made_up_plan("ABCDA", 1, 12.0);
@@ -85,7 +85,7 @@ TEST_CASE("eight times as many courses of the temperature give the same uncertai
     CHECK(few == Approx(many).epsilon(0.03));
 }
 
-TEST_CASE("more readings never make a plan worse", "[design]") {
+TEST_CASE("more readings never make a plan worse") {
     const auto sites = made_up_sites();
     const PlannedUnit unit = usual_unit();
     const auto u = [&](const Plan& plan) {

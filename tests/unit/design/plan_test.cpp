@@ -30,7 +30,7 @@ std::string refusal_of(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("a plan is read with zones and parts of minutes", "[design]") {
+TEST_CASE("a plan is read with zones and parts of minutes") {
     const Plan plan = read(kHeader + kGood);
     REQUIRE(plan.size() == 2);
     CHECK(to_rfc3339(plan[1].start) == "2026-05-01T00:30:00Z");
@@ -39,13 +39,13 @@ TEST_CASE("a plan is read with zones and parts of minutes", "[design]") {
     CHECK(duration_h(plan) == Approx(43.0 / 60.0));
 }
 
-TEST_CASE("a written plan is read as the same", "[design]") {
+TEST_CASE("a written plan is read as the same") {
     Plan plan = read(kHeader + kGood);
     plan[1].start += std::chrono::milliseconds(250);
     CHECK(read(plan_csv(plan)) == plan);
 }
 
-TEST_CASE("a plan of faces is read and written, and another one is refused", "[design][faces]") {
+TEST_CASE("a plan of faces is read and written, and another one is refused") {
     const std::string header = "site,start_utc,set_ups,minutes_each,faces\n";
     const Plan plan =
         read(header + "A,2026-05-01T00:00:00Z,4,3,+--+\nB,2026-05-01T00:30:00Z,2,6,\n");
@@ -62,8 +62,7 @@ TEST_CASE("a plan of faces is read and written, and another one is refused", "[d
           "alone");
 }
 
-TEST_CASE("a mistake in a plan is one line with line, column, value and what is allowed",
-          "[design]") {
+TEST_CASE("a mistake in a plan is one line with line, column, value and what is allowed") {
     const std::string first = "A,2026-05-01T00:00:00Z,1,12\n";
     CHECK(refusal_of(kHeader + first + "b ,2026-05-01T00:30:00Z,1,12\n") ==
           "plan.csv:3: site = b: unknown; allowed: a name of the table of sites; like B?");
@@ -86,7 +85,7 @@ TEST_CASE("a mistake in a plan is one line with line, column, value and what is 
     CHECK_THAT(refusal_of("site,start_utc,set_ups\n"), ContainsSubstring("plan.csv:"));
 }
 
-TEST_CASE("a plan visits a known and an unknown station", "[design]") {
+TEST_CASE("a plan visits a known and an unknown station") {
     CHECK_THAT(refusal_of(kHeader), ContainsSubstring("no site with a gravity_mgal"));
     CHECK_THAT(refusal_of(kHeader + "B,2026-05-01T00:00:00Z,1,12\n"),
                ContainsSubstring("no site with a gravity_mgal"));

@@ -10,7 +10,7 @@ using namespace a351;
 using namespace a351::corrector;
 using namespace a351::corrector::design;
 
-TEST_CASE("the usual walk of the oven is that of the published survey day", "[design]") {
+TEST_CASE("the usual walk of the oven is that of the published survey day") {
     const auto sites = text::read_sites(A351_GOLDEN "/tsukuba/sites.csv");
     const auto rows = reading::read_observations(A351_GOLDEN "/tsukuba/observations.csv", sites);
     double sum = 0.0;
@@ -23,7 +23,7 @@ TEST_CASE("the usual walk of the oven is that of the published survey day", "[de
     CHECK(walk == Approx(kUsualWalk_degc_per_sqrt_h).margin(0.0005));
 }
 
-TEST_CASE("a planned temperature changes like a random walk", "[design]") {
+TEST_CASE("a planned temperature changes like a random walk") {
     const UtcTime start = *parse_rfc3339("2026-05-01T00:00:00Z");
     constexpr double kWalk = 0.2;
     for (const double hours : {0.5, 1.0, 3.0, 8.0}) {
@@ -43,7 +43,7 @@ TEST_CASE("a planned temperature changes like a random walk", "[design]") {
     }
 }
 
-TEST_CASE("a planned day has the bins of its set-ups without their ends", "[design]") {
+TEST_CASE("a planned day has the bins of its set-ups without their ends") {
     const PlannedDay day =
         planned_day(made_up_plan("ABCA", 2, 6.0), made_up_sites(), usual_unit(), 0);
     CHECK(day.sites == std::vector<std::string>{"A", "B", "C"});
@@ -65,7 +65,7 @@ TEST_CASE("a planned day has the bins of its set-ups without their ends", "[desi
     CHECK(of_second == 6);  // 155 samples of 2 s: six bins of 25, and one of 5 is too short
 }
 
-TEST_CASE("the tilts of the set-ups have the scatter of the unit", "[design]") {
+TEST_CASE("the tilts of the set-ups have the scatter of the unit") {
     const PlannedUnit unit = usual_unit();
     double x = 0.0, y = 0.0, count = 0.0;
     for (std::size_t course = 0; course < kCourses; ++course) {

@@ -45,7 +45,7 @@ std::string refusal_of_unit(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("an earlier day gives response, noise, temperature and levelling", "[design]") {
+TEST_CASE("an earlier day gives response, noise, temperature and levelling") {
     const test::TemporaryDirectory folder;
     const PlannedUnit unit = planned_unit(folder.write("result.json", result_json()));
     CHECK(unit.noise.placement_mgal == 0.9);
@@ -68,7 +68,7 @@ TEST_CASE("an earlier day gives response, noise, temperature and levelling", "[d
     CHECK(unit.origin == "the day of 2026-05-01");
 }
 
-TEST_CASE("a file that is no result of the whole-day model is refused", "[design]") {
+TEST_CASE("a file that is no result of the whole-day model is refused") {
     const std::string allowed =
         "; allowed: the result.json of a survey corrected with the model day";
     CHECK_THAT(refusal_of_unit(result_json("t-rate")),
@@ -81,7 +81,7 @@ TEST_CASE("a file that is no result of the whole-day model is refused", "[design
     }
 }
 
-TEST_CASE("a calibration gives the priors that a survey with it has", "[design]") {
+TEST_CASE("a calibration gives the priors that a survey with it has") {
     const test::TemporaryDirectory folder;
     unit::Calibration calibration;
     calibration.serial_number = "7";

@@ -12,8 +12,7 @@ using namespace a351::corrector::figure;
 using namespace a351::corrector::model;
 using namespace a351::corrector::reading;
 
-TEST_CASE("the axis of the day names each stay once, and shows dates if there are several",
-          "[report][figures]") {
+TEST_CASE("the axis of the day names each stay once, and shows dates if there are several") {
     auto rows = made_up::day();
     rows[1].site = "B";
     rows[1].occupation = 1;
@@ -27,8 +26,7 @@ TEST_CASE("the axis of the day names each stay once, and shows dates if there ar
                            ContainsSubstring("'UTC, 2020-05-01 to 2020-05-03'"));
 }
 
-TEST_CASE("the day shows errors with their u only for readings with a reference",
-          "[report][figures]") {
+TEST_CASE("the day shows errors with their u only for readings with a reference") {
     auto rows = made_up::day();
     rows[1].reference.reset();
     const Figure figure = day_figure(corrected(rows), {}, {}, {}, {});
@@ -42,8 +40,7 @@ TEST_CASE("the day shows errors with their u only for readings with a reference"
     CHECK(count(script_of(day_figure(unknown, {}, {}, {}, {})), "yerrorbars") == 0);
 }
 
-TEST_CASE("the day shows the whole-day model's errors with the station left out",
-          "[report][figures]") {
+TEST_CASE("the day shows the whole-day model's errors with the station left out") {
     SurveyCorrection result = corrected(made_up::day());
     result.own = WholeDayPart{};
     for (CorrectedRow& row : result.rows)
@@ -53,7 +50,7 @@ TEST_CASE("the day shows the whole-day model's errors with the station left out"
     CHECK_THAT(figure.caption, ContainsSubstring("left out, minus reference (cross-validated)"));
 }
 
-TEST_CASE("a stay without a value is on the axis of the day", "[report][figures]") {
+TEST_CASE("a stay without a value is on the axis of the day") {
     SurveyCorrection result = corrected(made_up::day());
     const UtcTime end = result.rows[0].row.time - std::chrono::minutes(5);
     add_left_out(result, {{"S9", 2, end - std::chrono::hours(1), end, "no samples"}});
@@ -63,7 +60,7 @@ TEST_CASE("a stay without a value is on the axis of the day", "[report][figures]
                                              "',graph 0 to '" + to_rfc3339(end) + "'"));
 }
 
-TEST_CASE("the caption of the day lists the names that have no room", "[report][figures]") {
+TEST_CASE("the caption of the day lists the names that have no room") {
     SurveyCorrection result = corrected(made_up::day());
     CHECK_THAT(day_figure(result, {}, {}, {}, {}).caption, !ContainsSubstring("No room"));
     const UtcTime time = result.rows[0].row.time;
@@ -83,8 +80,7 @@ TEST_CASE("the caption of the day lists the names that have no room", "[report][
     CHECK(listed >= 2);  // six rows
 }
 
-TEST_CASE("the curve of the day's temperature is interrupted where nothing was recorded",
-          "[report][figures]") {
+TEST_CASE("the curve of the day's temperature is interrupted where nothing was recorded") {
     const SurveyCorrection result = corrected(made_up::day());
     std::vector<archive_series::MinuteTemperature> course;
     for (const int minute : {0, 1, 5})
@@ -94,8 +90,7 @@ TEST_CASE("the curve of the day's temperature is interrupted where nothing was r
     CHECK_THAT(day_figure(result, {}, {}, {}, {}).data, !ContainsSubstring("means of a minute"));
 }
 
-TEST_CASE("the signal of the day is a band with a key in words, if the log has them",
-          "[report][figures]") {
+TEST_CASE("the signal of the day is a band with a key in words, if the log has them") {
     const SurveyCorrection result = corrected(made_up::day());
     const auto at = [](int minute) { return made_up::kMorning + std::chrono::minutes(minute); };
     const Figure figure = day_figure(

@@ -28,7 +28,7 @@ bool has_gnuplot() {
 
 }  // namespace
 
-TEST_CASE("drawing the same figures gives the same bytes in every format", "[report][drawing]") {
+TEST_CASE("drawing the same figures gives the same bytes in every format") {
     if (!has_gnuplot()) return;
     const std::vector<Figure> figures{figure("one", "one.dat"), figure("two", "two.dat")};
     const Drawing drawing = draw(figures, picture_formats());
@@ -41,7 +41,7 @@ TEST_CASE("drawing the same figures gives the same bytes in every format", "[rep
     CHECK(draw(figures, picture_formats()).pictures == drawing.pictures);
 }
 
-TEST_CASE("a bad figure is reported and does not affect the others", "[report][drawing]") {
+TEST_CASE("a bad figure is reported and does not affect the others") {
     if (!has_gnuplot()) return;
     const Drawing drawing =
         draw({figure("one", "one.dat"), figure("bad", "absent.dat"), figure("two", "one.dat")}, {});
@@ -52,8 +52,7 @@ TEST_CASE("a bad figure is reported and does not affect the others", "[report][d
                                              EndsWith("No data in plot"));
 }
 
-TEST_CASE("a name from an input file is drawn literally and executes nothing",
-          "[report][drawing]") {
+TEST_CASE("a name from an input file is drawn literally and executes nothing") {
     if (!has_gnuplot()) return;
     const test::TemporaryDirectory folder;
     const std::string trap = (folder.path() / "trap").string();
@@ -70,7 +69,7 @@ TEST_CASE("a name from an input file is drawn literally and executes nothing",
     CHECK_FALSE(std::filesystem::exists(trap));
 }
 
-TEST_CASE("a missing or failing gnuplot gives exactly one reason", "[report][drawing]") {
+TEST_CASE("a missing or failing gnuplot gives exactly one reason") {
     const std::vector<Figure> figures{figure("one", "one.dat")};
     const test::TemporaryDirectory folder;
     const PathVariable path(folder.path());

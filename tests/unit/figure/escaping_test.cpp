@@ -5,8 +5,7 @@
 using namespace a351;
 using namespace a351::corrector::figure;
 
-TEST_CASE("valid UTF-8 is kept, other bytes and control characters become U+FFFD",
-          "[report][escaping]") {
+TEST_CASE("valid UTF-8 is kept, other bytes and control characters become U+FFFD") {
     CHECK(clean_utf8("No.5 \u7B51\u6CE2 \u00B0 \U0001F600") ==
           "No.5 \u7B51\u6CE2 \u00B0 \U0001F600");
     CHECK(clean_utf8("a\nb\x7F") == "a\uFFFDb\uFFFD");
@@ -20,12 +19,12 @@ TEST_CASE("valid UTF-8 is kept, other bytes and control characters become U+FFFD
     CHECK(clean_utf8("ab\xE7\xAD") == "ab\uFFFD\uFFFD");                  // cut off
 }
 
-TEST_CASE("a long label is cut between characters", "[report][escaping]") {
+TEST_CASE("a long label is cut between characters") {
     CHECK(short_label("12345678901234567890") == "12345678901234567890");
     CHECK(short_label("\u7B51345678901234567890AB") == "\u7B51345678901234567890\u2026");
     CHECK(short_label("\xFF") == "\uFFFD");
 }
 
-TEST_CASE("text in a gnuplot string cannot end it", "[report][escaping]") {
+TEST_CASE("text in a gnuplot string cannot end it") {
     CHECK(gnuplot_string("It's `ls` \\n @x\n") == "'It\u2019s `ls` \\n @x\uFFFD'");
 }

@@ -68,8 +68,7 @@ std::pair<double, double> range(const std::string& script, const std::string& ax
 
 }  // namespace
 
-TEST_CASE("figures 12 and 13 of the publication are reproduced with the lines printed there",
-          "[report][figures]") {
+TEST_CASE("figures 12 and 13 of the publication are reproduced with the lines printed there") {
     const SurveyCorrection result = corrected(tsukuba::observations());
     // Lines in the publication: 0.97348 x + 27825, R2 0.9748; -29.27 x + 3085, R2 0.926.  At the means of x,
     // 979892.35 and 42.67, these are 981730.6 and 1836.0.
@@ -80,8 +79,7 @@ TEST_CASE("figures 12 and 13 of the publication are reproduced with the lines pr
                ContainsSubstring("'slope -29.2309, R² = 0.9257'"));
 }
 
-TEST_CASE("an axis of six digits counts from a whole thousand, and so do the data",
-          "[report][figures]") {
+TEST_CASE("an axis of six digits counts from a whole thousand, and so do the data") {
     const auto figure = acceleration_figure(corrected(tsukuba::observations()), {});
     const std::string script = script_of(figure.value());
     CHECK_THAT(script, ContainsSubstring("'Reference gravity \u2212 979000 (mGal)'") &&
@@ -89,13 +87,12 @@ TEST_CASE("an axis of six digits counts from a whole thousand, and so do the dat
     CHECK_THAT(figure->data, ContainsSubstring("\n860.2100 "));
 }
 
-TEST_CASE("a figure of small numbers keeps them", "[report][figures]") {
+TEST_CASE("a figure of small numbers keeps them") {
     CHECK_THAT(script_of(difference_figure(corrected(tsukuba::observations()), {}).value()),
                ContainsSubstring("'Temperature (°C)'"));
 }
 
-TEST_CASE("corrected gravity over reference has u as bars and the publication's number",
-          "[report][figures]") {
+TEST_CASE("corrected gravity over reference has u as bars and the publication's number") {
     const Figure figure = corrected_figure(corrected(made_up::day()), {}).value();
     CHECK(count(script_of(figure), "yerrorbars") == 1);
     CHECK_THAT(figure.caption, EndsWith(" (Publication's Fig. 14.)"));
@@ -105,8 +102,7 @@ TEST_CASE("corrected gravity over reference has u as bars and the publication's 
                 "yerrorbars") == 0);
 }
 
-TEST_CASE("every row is in a block of its kind, and an empty block is not plotted",
-          "[report][figures]") {
+TEST_CASE("every row is in a block of its kind, and an empty block is not plotted") {
     auto rows = made_up::day();
     rows[1].reference.reset();
     rows[2].is_flagged = true;
@@ -122,8 +118,7 @@ TEST_CASE("every row is in a block of its kind, and an empty block is not plotte
 }
 
 TEST_CASE(
-    "half the difference and half the sum of both faces are drawn for the stays that have both",
-    "[report][figures][faces]") {
+    "half the difference and half the sum of both faces are drawn for the stays that have both") {
     auto rows = made_up::day();
     CHECK_FALSE(faces_figure(corrected(rows), {}));
     SurveyCorrection result = corrected(rows);
@@ -151,7 +146,7 @@ TEST_CASE(
     CHECK(corrected_figure(result, {}));
 }
 
-TEST_CASE("a record belongs to the row with the same interval", "[report][figures]") {
+TEST_CASE("a record belongs to the row with the same interval") {
     const UtcTime morning = made_up::kMorning;
     const std::vector<RepresentativeValue> values{record_at(morning),
                                                   record_at(morning + std::chrono::hours(1))};
@@ -166,8 +161,7 @@ TEST_CASE("a record belongs to the row with the same interval", "[report][figure
     CHECK(records.front().value == &values[1]);
 }
 
-TEST_CASE("a row of the whole-day model gets the record of which it averages more",
-          "[report][figures]") {
+TEST_CASE("a row of the whole-day model gets the record of which it averages more") {
     const std::vector<RepresentativeValue> values{
         record_at(made_up::kMorning), record_at(made_up::kMorning + std::chrono::hours(1))};
     SurveyCorrection result;
@@ -188,8 +182,7 @@ TEST_CASE("a row of the whole-day model gets the record of which it averages mor
                ContainsSubstring("'981702.1'"));
 }
 
-TEST_CASE("the figure of a reading has its series, trend, extrema and interval",
-          "[report][figures]") {
+TEST_CASE("the figure of a reading has its series, trend, extrema and interval") {
     const std::vector<RepresentativeValue> values{record_at(made_up::kMorning)};
     SurveyCorrection result;
     result.rows.resize(1);
@@ -227,8 +220,7 @@ TEST_CASE("the figure of a reading has its series, trend, extrema and interval",
 
 TEST_CASE(
     "on the map a degree of longitude is shorter than one of latitude by the cosine of the "
-    "latitude",
-    "[report][figures]") {
+    "latitude") {
     SurveyCorrection result = with_stations({"A", "B", "C"});
     const auto figure = map_figure(result,
                                    {site("A", 10.0, 60.0), site("B", 10.2, 60.01),
@@ -247,7 +239,7 @@ TEST_CASE(
     CHECK_FALSE(map_figure(result, {}, {}).has_value());
 }
 
-TEST_CASE("the map of stations across the 180th meridian is one piece", "[report][figures]") {
+TEST_CASE("the map of stations across the 180th meridian is one piece") {
     // After GNS-Science/gsolve and obspy's events_longitude_wrap.
     SurveyCorrection result = with_stations({"A", "B", "C"});
     const double second = GENERATE(-179.99, 180.01);
@@ -260,8 +252,7 @@ TEST_CASE("the map of stations across the 180th meridian is one piece", "[report
     CHECK_THAT(script, ContainsSubstring("set label '500 m'"));
 }
 
-TEST_CASE("the map shows gravity and the order of the visits, those without a value too",
-          "[report][figures]") {
+TEST_CASE("the map shows gravity and the order of the visits, those without a value too") {
     SurveyCorrection result = corrected(made_up::day());
     const UtcTime start = result.rows[0].row.time + std::chrono::minutes(5);
     add_left_out(result, {{"S5", 7, start, start, "no samples"}});
@@ -274,7 +265,7 @@ TEST_CASE("the map shows gravity and the order of the visits, those without a va
     CHECK_THAT(figure.data, ContainsSubstring("10.000000 60.000000 1\n10.200000 60.010000 2\n"));
 }
 
-TEST_CASE("stations that are all at one place still give a map", "[report][figures]") {
+TEST_CASE("stations that are all at one place still give a map") {
     SurveyCorrection result = with_stations({"A", "B"});
     const Figure figure =
         map_figure(result, {site("A", 10.0, 45.0), site("B", 10.0, 45.0)}, {}).value();
@@ -283,7 +274,7 @@ TEST_CASE("stations that are all at one place still give a map", "[report][figur
                                       ContainsSubstring("set label '20 m'"));
 }
 
-TEST_CASE("the labels of the map cover neither a point nor another label", "[report][figures]") {
+TEST_CASE("the labels of the map cover neither a point nor another label") {
     SurveyCorrection result = with_stations({"A", "B", "C", "D"});
     // B is a little east of A, so that A's label must be left of it; the others are far away.
     const Figure figure = map_figure(result,
@@ -307,8 +298,7 @@ TEST_CASE("the labels of the map cover neither a point nor another label", "[rep
         }
 }
 
-TEST_CASE("the map names the stations whose label has no room, and no pointer crosses a label",
-          "[report][figures]") {
+TEST_CASE("the map names the stations whose label has no room, and no pointer crosses a label") {
     SurveyCorrection result;
     std::vector<text::Site> sites;
     for (int i = 0; i < 40; ++i) {
@@ -332,7 +322,7 @@ TEST_CASE("the map names the stations whose label has no room, and no pointer cr
     CHECK_THAT(map_figure(result, sites, {})->caption, !ContainsSubstring("No room"));
 }
 
-TEST_CASE("a station without coordinates is not on the map", "[report][figures]") {
+TEST_CASE("a station without coordinates is not on the map") {
     SurveyCorrection result = with_stations({"A", "B"});
     std::vector<text::Site> sites{site("A", 10.0, 45.0), site("B", 10.0, 45.0)};
     sites[1].is_placed = false;
@@ -344,7 +334,7 @@ TEST_CASE("a station without coordinates is not on the map", "[report][figures]"
     CHECK_FALSE(map_figure(result, sites, {}));
 }
 
-TEST_CASE("the steps of an axis are round numbers", "[report][figures]") {
+TEST_CASE("the steps of an axis are round numbers") {
     CHECK(round_step(0.73) == Approx(0.5));
     CHECK(round_step(2.0) == Approx(2.0));
     CHECK(round_step(4.9) == Approx(2.0));
@@ -352,8 +342,7 @@ TEST_CASE("the steps of an axis are round numbers", "[report][figures]") {
     CHECK(round_step(0.0015) == Approx(0.001));
 }
 
-TEST_CASE("the noise of a day is that of the readings in the fit, beside the data sheet's",
-          "[report][figures]") {
+TEST_CASE("the noise of a day is that of the readings in the fit, beside the data sheet's") {
     SurveyCorrection result = corrected(tsukuba::observations());
     const RepresentativeValue value = record_at(result.rows[0].row.time);
     const std::vector<ReadingRecord> records{{0, &value}, {1, &value}};

@@ -31,7 +31,7 @@ std::string body_of(const Figure& figure) {
 
 }  // namespace
 
-TEST_CASE("a script has only the settings that differ from the panel before", "[report][script]") {
+TEST_CASE("a script has only the settings that differ from the panel before") {
     Figure figure{"f"};
     figure.panels = {{.x = {"Hours"}, .y = {"mGal", {-1.0, kFromData}}},
                      {.y = {"mGal", {-1.0, kFromData}, 0.5}}};
@@ -48,8 +48,7 @@ TEST_CASE("a script has only the settings that differ from the panel before", "[
     CHECK(figure.data == "# hours mgal\n1 1\n\n\n# hours mgal\n1 1\n");
 }
 
-TEST_CASE("columns are named by number, and a source without data is not plotted",
-          "[report][script]") {
+TEST_CASE("columns are named by number, and a source without data is not plotted") {
     Figure figure{"f"};
     figure.panels.emplace_back().series = {
         {.source = ""},
@@ -60,8 +59,7 @@ TEST_CASE("columns are named by number, and a source without data is not plotted
                                            "     0 with lines lw 1.5 lc rgb '#888888' notitle\n"));
 }
 
-TEST_CASE("a panel has a right axis, colours by value and room beside the data if it says so",
-          "[report][script]") {
+TEST_CASE("a panel has a right axis, colours by value and room beside the data if it says so") {
     Figure figure{"f"};
     Panel& panel = figure.panels.emplace_back();
     panel = {.y = {.range = {0.0, kFromData}},
@@ -82,8 +80,7 @@ TEST_CASE("a panel has a right axis, colours by value and room beside the data i
                ContainsSubstring("set offsets graph 0.03, graph 0.03, graph 0.05, graph 0\n"));
 }
 
-TEST_CASE("marks of a panel are removed in the next one, on an axis of time too",
-          "[report][script]") {
+TEST_CASE("marks of a panel are removed in the next one, on an axis of time too") {
     const UtcTime noon = *parse_rfc3339("2026-05-01T12:00:00Z");
     Figure figure{"f"};
     figure.panels = {{.x = {.scale = Scale::time},
@@ -106,8 +103,7 @@ TEST_CASE("marks of a panel are removed in the next one, on an axis of time too"
         CHECK(count(second, command) == 1);
 }
 
-TEST_CASE("panels of a column share the x axis, those of several columns the y axis too",
-          "[report][script]") {
+TEST_CASE("panels of a column share the x axis, those of several columns the y axis too") {
     Figure figure{"f", "", 170.0};
     const Panel panel{.x = {"X"},
                       .y = {.label = "Y", .range = {-6.0, 6.0}, .step = 2.0, .format = "%g"},
@@ -131,7 +127,7 @@ TEST_CASE("panels of a column share the x axis, those of several columns the y a
     CHECK(count(script, "set label 'H' at screen") == 3);
 }
 
-TEST_CASE("texts above a panel get as many lines as they need", "[report][layout]") {
+TEST_CASE("texts above a panel get as many lines as they need") {
     Figure figure{"f", "", kColumn_mm};
     Panel& panel = figure.panels.emplace_back();
     panel.y.label = "Heading";
@@ -163,8 +159,7 @@ TEST_CASE("texts above a panel get as many lines as they need", "[report][layout
     CHECK(place().key_rows == 2);
 }
 
-TEST_CASE("a logarithmic axis of less than two decades has numbers at 1, 2 and 5",
-          "[report][script]") {
+TEST_CASE("a logarithmic axis of less than two decades has numbers at 1, 2 and 5") {
     Figure figure{"f", "", kColumn_mm};
     Panel& panel = figure.panels.emplace_back();
     panel.series = {{.source = kZero}};
@@ -178,8 +173,7 @@ TEST_CASE("a logarithmic axis of less than two decades has numbers at 1, 2 and 5
     CHECK_THAT(script, ContainsSubstring("'x \u2212 1'") && ContainsSubstring("'\u2212 y'"));
 }
 
-TEST_CASE("all formats have the width and the letters that print_style.hpp says",
-          "[report][script]") {
+TEST_CASE("all formats have the width and the letters that print_style.hpp says") {
     Figure figure{"f", "", kColumn_mm};
     figure.panels.emplace_back().series = {{.source = kZero}};
     const std::string script = script_of(figure);
@@ -190,7 +184,7 @@ TEST_CASE("all formats have the width and the letters that print_style.hpp says"
     CHECK(count(script, "font 'sans-serif,10'") == 3);
 }
 
-TEST_CASE("a number that is not finite is a gap of the data", "[report][script]") {
+TEST_CASE("a number that is not finite is a gap of the data") {
     CHECK(data_line("031", {1.5, std::nan(""), -INFINITY}) == "2 NaN NaN \n");
     CHECK(data_line("3", {-0.0004}, "# end\n") == "0.000 # end\n");
 }

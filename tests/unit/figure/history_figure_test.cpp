@@ -7,7 +7,7 @@
 using namespace a351;
 using namespace a351::corrector;
 
-TEST_CASE("the terms of a unit by day have a panel each, if a day has them", "[figure][history]") {
+TEST_CASE("the terms of a unit by day have a panel each, if a day has them") {
     std::vector<result::UnitDay> days(2);
     for (std::size_t k = 0; k < days.size(); ++k) {
         days[k].serial_number = "A";

@@ -6,8 +6,7 @@
 using namespace a351;
 using namespace a351::corrector::figure;
 
-TEST_CASE("an inlined picture has unique ids and takes the available width",
-          "[report][inline_svg]") {
+TEST_CASE("an inlined picture has unique ids and takes the available width") {
     pugi::xml_document page;
     const pugi::xml_node place = page.append_child("figure");
     REQUIRE(add_svg(
@@ -27,7 +26,7 @@ TEST_CASE("an inlined picture has unique ids and takes the available width",
           "<text filter=\"url(#map-p)\">a &lt; #b</text></g></svg></figure>");
 }
 
-TEST_CASE("an incomplete SVG is not inlined", "[report][inline_svg]") {
+TEST_CASE("an incomplete SVG is not inlined") {
     pugi::xml_document page;
     const pugi::xml_node place = page.append_child("figure");
     for (const char* const picture : {"", "<svg viewBox=\"0 0 6 4\"><g>", "<html/>"}) {

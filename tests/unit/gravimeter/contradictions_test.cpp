@@ -20,7 +20,7 @@ std::vector<std::string> remarks(const std::string& content, double tide_mgal) {
 
 }  // namespace
 
-TEST_CASE("positions of one station that differ are one remark with the worst", "[gravimeter]") {
+TEST_CASE("positions of one station that differ are one remark with the worst") {
     const std::string one = cg6_reading("A", "10:00:00"), two = cg6_reading("A", "10:01:00");
     CHECK(remarks(cg6_header() + one + changed(two, "39.5", "39.5008"), 0.0488).empty());  // 89 m
     CHECK(remarks(cg6_header() + one + changed(two, "1577.0", "1586.0"), 0.0488).empty());
@@ -38,7 +38,7 @@ TEST_CASE("positions of one station that differ are one remark with the worst", 
           "(lines 5 and 7), +9.25 mGal of normal gravity. The first position of a station is used");
 }
 
-TEST_CASE("a receiver that is far from the position entered is a remark", "[gravimeter]") {
+TEST_CASE("a receiver that is far from the position entered is a remark") {
     const std::string line =
         changed(cg6_reading("A", "10:00:00"), "--\t--\t--", "39.5\t-105.0\t1577.0");
     CHECK(remarks(cg6_header() + line, 0.0488).empty());
@@ -49,7 +49,7 @@ TEST_CASE("a receiver that is far from the position entered is a remark", "[grav
           "mGal of normal gravity. The position that was entered is used");
 }
 
-TEST_CASE("a tide correction that is off for a part of the readings is a remark", "[gravimeter]") {
+TEST_CASE("a tide correction that is off for a part of the readings is a remark") {
     const auto found =
         remarks(cg6_header() + cg6_reading("A", "10:00:00") +
                     cg6_reading("A", "10:01:00", "11001") + cg6_reading("A", "10:02:00", "11001"),
@@ -62,7 +62,7 @@ TEST_CASE("a tide correction that is off for a part of the readings is a remark"
     CHECK(remarks(cg6_header() + cg6_reading("A", "10:00:00", "11001"), 0.1).empty());
 }
 
-TEST_CASE("a tide beyond the limit is a remark without hours, if many would fit", "[gravimeter]") {
+TEST_CASE("a tide beyond the limit is a remark without hours, if many would fit") {
     const std::string content = cg6_header() + cg6_reading("A", "10:00:00");
     CHECK(remarks(content, 0.0488 + 0.0099).empty());
     const auto found = remarks(content, 0.0488 + 0.0101);
@@ -72,7 +72,7 @@ TEST_CASE("a tide beyond the limit is a remark without hours, if many would fit"
           "check the clock and the position. Times and positions are used as they are");
 }
 
-TEST_CASE("one wrong tide among many readings is no shift of the times", "[gravimeter]") {
+TEST_CASE("one wrong tide among many readings is no shift of the times") {
     const auto start = *parse_rfc3339("2017-04-17T10:00:00Z");
     const auto tide_of = [&](UtcTime time) { return 5e-4 / 60.0 * seconds_between(start, time); };
     constexpr int kCount = 150;
@@ -89,7 +89,7 @@ TEST_CASE("one wrong tide among many readings is no shift of the times", "[gravi
     CHECK_THAT(found[0], ContainsSubstring("by up to 0.050 mGal (line 6): check the clock"));
 }
 
-TEST_CASE("a tide correction that is 0 throughout is a remark of its own", "[gravimeter]") {
+TEST_CASE("a tide correction that is 0 throughout is a remark of its own") {
     const std::string line = changed(burris_reading("a", "10:00:00"), "-0.103", "0");
     const auto found = remarks(line, 0.108);
     REQUIRE(found.size() == 1);
@@ -97,7 +97,7 @@ TEST_CASE("a tide correction that is 0 throughout is a remark of its own", "[gra
     CHECK(remarks(line, 0.009).empty());
 }
 
-TEST_CASE("a stay number that comes back after other stations is a remark", "[gravimeter]") {
+TEST_CASE("a stay number that comes back after other stations is a remark") {
     const std::string header =
         "/ CG-6 Gravity Survey\n/ Meter: 007\n/ Tidal Correction: Disabled\n/ Column Headers:\n"
         "/ Year\n/ Month\n/ DayOfMonth\n/ Hour\n/ Minute\n/ Second\n/ CorrGravity(mGals)\n"

@@ -14,8 +14,7 @@ using namespace a351;
 using namespace a351::corrector::gravimeter;
 using namespace made_up;
 
-TEST_CASE("a CG-5 west of Greenwich has its time in UTC, its position and its columns",
-          "[gravimeter]") {
+TEST_CASE("a CG-5 west of Greenwich has its time in UTC, its position and its columns") {
     const auto file = read(cg5_header("4.0") + cg5_reading("16.0000000", "23:30:00"));
     CHECK(file.format == "Scintrex CG-5");
     CHECK(file.comment_count == 8);
@@ -32,8 +31,8 @@ TEST_CASE("a CG-5 west of Greenwich has its time in UTC, its position and its co
     CHECK(kept(reading, "temperature_offset_mk") == "-1.5");
 }
 
-TEST_CASE("a CG-5 without its tide correction has none, and a second header changes the instrument",
-          "[gravimeter]") {
+TEST_CASE(
+    "a CG-5 without its tide correction has none, and a second header changes the instrument") {
     const auto file = read(cg5_header("0.0") + cg5_reading("1", "10:00:00") +
                            cg5_header("-1.0", "NO", "456") + cg5_reading("1", "10:00:00"));
     REQUIRE(file.readings.size() == 2);
@@ -43,7 +42,7 @@ TEST_CASE("a CG-5 without its tide correction has none, and a second header chan
     CHECK(to_rfc3339(file.readings[1].time) == "2013-09-15T09:00:00Z");
 }
 
-TEST_CASE("a coordinate in the header of a CG-5 that is none is refused", "[gravimeter]") {
+TEST_CASE("a coordinate in the header of a CG-5 that is none is refused") {
     const auto refused = [](const std::string& from, const std::string& to) {
         std::string reasons;
         for (const RefusedLine& line :
@@ -57,8 +56,7 @@ TEST_CASE("a coordinate in the header of a CG-5 that is none is refused", "[grav
     CHECK_THAT(refused("70.5 W", "180.5 W"), StartsWith("LONG: not as a CG-5 writes it"));
 }
 
-TEST_CASE("a CG-6 gives its own tide only if it was applied, and the receiver's position",
-          "[gravimeter]") {
+TEST_CASE("a CG-6 gives its own tide only if it was applied, and the receiver's position") {
     const auto file = read(cg6_header() + cg6_reading("A 1", "10:00:00") +
                            cg6_reading("A 1", "10:01:00", "11001"));
     CHECK(file.format == "Scintrex CG-6");
@@ -71,7 +69,7 @@ TEST_CASE("a CG-6 gives its own tide only if it was applied, and the receiver's 
     CHECK(kept(file.readings[0], "temperature_degc") == "43.2662");
 }
 
-TEST_CASE("a word of the names elsewhere in a line of a CG-6 is no line of names", "[gravimeter]") {
+TEST_CASE("a word of the names elsewhere in a line of a CG-6 is no line of names") {
     const std::string reading =
         changed(cg6_reading("A", "10:00:00"), "2066.1898\t1", "2066.1898\tStation");
     const auto file = read("/\tCG-6 Survey\n/\tSurvey Name:\tStation\n" + cg6_header().substr(15) +
@@ -81,7 +79,7 @@ TEST_CASE("a word of the names elsewhere in a line of a CG-6 is no line of names
     CHECK(kept(file.readings[0], "line_name") == "Station");
 }
 
-TEST_CASE("a Burris is read with blanks or commas", "[gravimeter]") {
+TEST_CASE("a Burris is read with blanks or commas") {
     const char separator = GENERATE(' ', ',', '\t');
     const auto file = read(burris_reading("rg37", "15:56:20", "2800", separator));
     CHECK(file.format == "ZLS Burris");
@@ -92,8 +90,7 @@ TEST_CASE("a Burris is read with blanks or commas", "[gravimeter]") {
     CHECK(kept(file.readings[0], "tilt_correction_mgal") == "0.005");
 }
 
-TEST_CASE("a Burris is read with 15 columns, with a note, and with quoted or empty cells",
-          "[gravimeter]") {
+TEST_CASE("a Burris is read with 15 columns, with a note, and with quoted or empty cells") {
     const auto [line, layout] = GENERATE(table<std::string, std::string>({
         {"a B44 2017/12/05 10:00:00 2769.695 2800 0.482 -0.103 0.005 -0.033 -0.002 0.1 1600 35.1 "
          "-106.6",
@@ -121,8 +118,7 @@ TEST_CASE("a Burris is read with 15 columns, with a note, and with quoted or emp
     CHECK(to_rfc3339(file.readings[0].time) == "2017-12-05T10:00:00Z");
 }
 
-TEST_CASE("a Burris with the year last is read if a day above 12 proves that the month is first",
-          "[gravimeter]") {
+TEST_CASE("a Burris with the year last is read if a day above 12 proves that the month is first") {
     const auto dated = [](const std::string& date) {
         return changed(burris_reading("a", "10:00:00"), "2017/12/05", date);
     };
@@ -136,10 +132,8 @@ TEST_CASE("a Burris with the year last is read if a day above 12 proves that the
                       ContainsSubstring("month and day can be either"));
 }
 
-TEST_CASE(
-    "a Burris between blanks whose observer is a number is refused, because a station can "
-    "have a blank",
-    "[gravimeter]") {
+TEST_CASE("a Burris between blanks whose observer is a number is refused, because a station can "
+          "have a blank") {
     std::string line = changed(burris_reading("BM", "10:00:00"), "abc", "1");
     CHECK_THROWS_WITH(read(line + line), ContainsSubstring("Observer ID = 1: a number"));
     for (char& letter : line)
@@ -147,8 +141,7 @@ TEST_CASE(
     CHECK(read(line).readings.front().site == "BM");
 }
 
-TEST_CASE("a Burris between blanks with further words in its names is refused by its columns",
-          "[gravimeter]") {
+TEST_CASE("a Burris between blanks with further words in its names is refused by its columns") {
     const auto with = [](const std::string& station, const std::string& observer) {
         return changed(burris_reading(station, "10:00:00"), "abc", observer);
     };
@@ -163,8 +156,7 @@ TEST_CASE("a Burris between blanks with further words in its names is refused by
     CHECK_THAT(read(one).layout, !ContainsSubstring("observers"));
 }
 
-TEST_CASE("a Burris is read by the names of its columns if the station is not the first",
-          "[gravimeter]") {
+TEST_CASE("a Burris is read by the names of its columns if the station is not the first") {
     const auto file = read(
         "Observer ID,Station ID,Serial Number,Date,Time,ObsG,Dial,Earthtide Correction\n"
         "me,P1,B44,2017/12/05,10:00:00,2769.695,2800,-0.103\n");
@@ -172,8 +164,7 @@ TEST_CASE("a Burris is read by the names of its columns if the station is not th
     CHECK(file.readings.front().site == "P1");
 }
 
-TEST_CASE("a Burris can have a comma in a quoted name, and its names in other capitals are names",
-          "[gravimeter]") {
+TEST_CASE("a Burris can have a comma in a quoted name, and its names in other capitals are names") {
     const std::string names = "Station ID,Serial Number,Date,Time,ObsG,Dial,Earthtide Correction\n";
     const auto file = read(names + "\"Well 1, north\",B44,2017/12/05,10:00:00,2770.5,2800,-0.1\n");
     CHECK(file.refused.empty());
@@ -186,8 +177,7 @@ TEST_CASE("a Burris can have a comma in a quoted name, and its names in other ca
                       ContainsSubstring(":1: unknown columns: station id"));
 }
 
-TEST_CASE("columns without a name, as a spreadsheet adds at the end, are not used",
-          "[gravimeter]") {
+TEST_CASE("columns without a name, as a spreadsheet adds at the end, are not used") {
     const GravimeterFile file = read(
         "Station ID,Serial Number,Date,Time,ObsG,Dial,Earthtide Correction,,\n"
         "a,B44,2017/12/05,10:00:00,2770.5,2800,-0.1,,\n"
@@ -198,8 +188,7 @@ TEST_CASE("columns without a name, as a spreadsheet adds at the end, are not use
     CHECK(file.refused[0].line == 4);
 }
 
-TEST_CASE("a line of names with columns that nobody knows is refused with their names",
-          "[gravimeter]") {
+TEST_CASE("a line of names with columns that nobody knows is refused with their names") {
     const std::string cg6 = changed(cg6_header(), "TideCorr", "SeaLevel");
     const auto [content, line,
                 reason] = GENERATE_COPY(table<std::string, std::size_t, std::string>({
@@ -226,8 +215,7 @@ TEST_CASE("a line of names with columns that nobody knows is refused with their 
     CHECK_THAT(file.refused[0].reason, ContainsSubstring(reason));
 }
 
-TEST_CASE("a CG-5 without a line of names is known to begin with coordinates by its header",
-          "[gravimeter]") {
+TEST_CASE("a CG-5 without a line of names is known to begin with coordinates by its header") {
     const std::string reading = cg5_reading("1", "10:00:00");
     const auto at = [&](std::string line, const std::string& one, const std::string& two) {
         return line.replace(0, line.find(" 12.5"), one + " " + two);
@@ -245,8 +233,7 @@ TEST_CASE("a CG-5 without a line of names is known to begin with coordinates by 
                       ContainsSubstring("no header with Note, whose first word is the station"));
 }
 
-TEST_CASE("a CG-5 with stations in the notes lists them, and a file lists all its layouts",
-          "[gravimeter]") {
+TEST_CASE("a CG-5 with stations in the notes lists them, and a file lists all its layouts") {
     const std::string line = cg5_reading("1", "10:00:00"), header = cg5_header("0.0");
     std::string at = line;
     at.replace(0, at.find(" 12.5"), "-33.2 -70.6");
@@ -262,7 +249,7 @@ TEST_CASE("a CG-5 with stations in the notes lists them, and a file lists all it
     CHECK(read(by_note + header + line).layout == found + "; " + usual + list);
 }
 
-TEST_CASE("a CG-5 can have its options before the survey, and lines switched off", "[gravimeter]") {
+TEST_CASE("a CG-5 can have its options before the survey, and lines switched off") {
     const std::string options = "/\tTide Correction:    YES\r\n";
     const std::string header = changed(cg5_header("0.0"), options, "");
     const auto file =
@@ -276,8 +263,7 @@ TEST_CASE("a CG-5 can have its options before the survey, and lines switched off
                ContainsSubstring("no header with Tide Correction"));
 }
 
-TEST_CASE("a CG-6 keeps a reading whose standard deviation is too wide for its column",
-          "[gravimeter]") {
+TEST_CASE("a CG-6 keeps a reading whose standard deviation is too wide for its column") {
     const std::string line = cg6_reading("A", "10:00:00");
     const auto file = read(cg6_header() + changed(line, "0.0128", "****"));
     REQUIRE(file.readings.size() == 1);
@@ -288,8 +274,7 @@ TEST_CASE("a CG-6 keeps a reading whose standard deviation is too wide for its c
                ContainsSubstring("StdDev = 0.x1: not a number"));
 }
 
-TEST_CASE("a reading ends the names of an export for Tsoft, so that the next station is known",
-          "[gravimeter]") {
+TEST_CASE("a reading ends the names of an export for Tsoft, so that the next station is known") {
     const std::string line = "2017 7 24 0 9 36 1578.474 -0.0374\n";
     const auto file = read(
         "/ CG-6 Gravity Survey\n/ Meter: 007\n/ Tidal Correction: Enabled\n/ Station: s1\n"
@@ -300,8 +285,7 @@ TEST_CASE("a reading ends the names of an export for Tsoft, so that the next sta
     CHECK(file.readings[1].site == "s2");
 }
 
-TEST_CASE("a CG-6 export for Tsoft has its station in the header, and is read by name",
-          "[gravimeter]") {
+TEST_CASE("a CG-6 export for Tsoft has its station in the header, and is read by name") {
     const std::string header =
         "/ CG-6 Gravity Survey\n/ Software Version: 1.2\n/ Meter: 007\n/ Tidal Correction: "
         "Disabled\n/ Station: s 1\n/ Occupation: 4\n/ \n/ Column Headers:\n/ Year\n/ Month\n"
@@ -324,7 +308,7 @@ TEST_CASE("a CG-6 export for Tsoft has its station in the header, and is read by
     CHECK_THAT(file.refused[0].reason, ContainsSubstring("Year to MilliSec: not an instant"));
 }
 
-TEST_CASE("a GCYM table is read in the zone that is given, and marks its loops", "[gravimeter]") {
+TEST_CASE("a GCYM table is read in the zone that is given, and marks its loops") {
     const test::TemporaryDirectory folder;
     const auto path =
         folder.write("q",
@@ -347,7 +331,7 @@ TEST_CASE("a GCYM table is read in the zone that is given, and marks its loops",
     CHECK(stays[2].loop == 2);
 }
 
-TEST_CASE("a torn line of a GCYM table and another network are refused", "[gravimeter]") {
+TEST_CASE("a torn line of a GCYM table and another network are refused") {
     const test::TemporaryDirectory folder;
     const std::string reading = "C098 GCYM 1508211134 13064422 4424.250 1000.0 29.0\n";
     const auto refused = [&](const std::string& content) {
@@ -364,8 +348,7 @@ TEST_CASE("a torn line of a GCYM table and another network are refused", "[gravi
     CHECK(refused(reading + other)[0].reason == "network = GCYN: allowed: GCYM");
 }
 
-TEST_CASE("damaged and foreign lines are refused with number and reason, and the others are read",
-          "[gravimeter]") {
+TEST_CASE("damaged and foreign lines are refused with number and reason, and the others are read") {
     const auto [content, line, reason] = GENERATE(table<std::string, std::size_t, std::string>({
         {cg5_header("0.0") + cg5_reading("1", "10:00:00") + cg5_reading("1", "25:00:00"), 10,
          "TIME = 2013/09/15 25:00:00: not an instant"},
@@ -390,8 +373,7 @@ TEST_CASE("damaged and foreign lines are refused with number and reason, and the
     CHECK_THAT(file.refused[0].reason, ContainsSubstring(reason));
 }
 
-TEST_CASE("a file of no known format, or without a reading, is refused in one line",
-          "[gravimeter]") {
+TEST_CASE("a file of no known format, or without a reading, is refused in one line") {
     const auto [content, words] = GENERATE(table<std::string, std::string>({
         {"", "not a file of a gravimeter"},
         {"site,gravity\nA,979800\n", "not a file of a gravimeter"},

@@ -33,8 +33,7 @@ std::string lynx_names() {
 
 }  // namespace
 
-TEST_CASE("a file of Lynx LG has its stations in the lines, and an empty occupation or line",
-          "[gravimeter]") {
+TEST_CASE("a file of Lynx LG has its stations in the lines, and an empty occupation or line") {
     const std::string header = kLynxHeader;
     const auto reading = [](const std::string& stay, const std::string& minute) {
         return lynx_reading("north P1 " + stay, minute);
@@ -75,7 +74,7 @@ TEST_CASE("a file of Lynx LG has its stations in the lines, and an empty occupat
                       ContainsSubstring("unknown columns: Err"));
 }
 
-TEST_CASE("a blank in a name of Lynx LG does not hide behind an empty cell", "[gravimeter]") {
+TEST_CASE("a blank in a name of Lynx LG does not hide behind an empty cell") {
     const auto [names, is_read] = GENERATE(table<std::string, bool>({
         {"north P1 2 7", true},
         {" P1 2 7", true},            // without a survey
@@ -90,8 +89,7 @@ TEST_CASE("a blank in a name of Lynx LG does not hide behind an empty cell", "[g
         CHECK_THROWS_WITH(read(content), ContainsSubstring("between single blanks"));
 }
 
-TEST_CASE("columns of Lynx LG are taken by their order only with the names of what is computed",
-          "[gravimeter]") {
+TEST_CASE("columns of Lynx LG are taken by their order only with the names of what is computed") {
     const std::string name =
         GENERATE("Station", "Minute", "CorrGravity(mGals)", "TidalCorr(mGals)");
     const std::string names = changed(lynx_names(), "/ " + name + "\n", "/ Other\n");
@@ -99,7 +97,7 @@ TEST_CASE("columns of Lynx LG are taken by their order only with the names of wh
                       ContainsSubstring("unknown columns: "));
 }
 
-TEST_CASE("a second header of Lynx LG leaves nothing of the first", "[gravimeter]") {
+TEST_CASE("a second header of Lynx LG leaves nothing of the first") {
     const std::string line = lynx_reading("north P1 2 7");
     const std::string start = kLynxHeader + lynx_names() + "/ \n" + line;
     const std::string names = changed(lynx_names(), "TidalCorr(mGals)", "Other");

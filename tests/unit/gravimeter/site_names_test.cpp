@@ -21,8 +21,7 @@ std::vector<GravimeterFile> files_with(const std::vector<std::string>& names) {
 
 }  // namespace
 
-TEST_CASE("names with a comma, a sign, blanks or in another script survive the tables",
-          "[gravimeter]") {
+TEST_CASE("names with a comma, a sign, blanks or in another script survive the tables") {
     auto files = files_with({"A, north", "-5", "A 1", "測点 1", "\"B\"", "Ост-3"});
     CHECK(files[0].refused.empty());
     const auto remarks = text::in_english(make_table_names(files));
@@ -41,15 +40,14 @@ TEST_CASE("names with a comma, a sign, blanks or in another script survive the t
     }
 }
 
-TEST_CASE("two names that would be one in the tables are refused", "[gravimeter]") {
+TEST_CASE("two names that would be one in the tables are refused") {
     auto files = files_with({"A,1", "A;1"});
     CHECK_THROWS_WITH(
         make_table_names(files),
         ContainsSubstring("no-name:6: station = A;1: would be A;1 in the tables, as A,1 is"));
 }
 
-TEST_CASE("names that differ only in writing are asked about and remain two stations",
-          "[gravimeter]") {
+TEST_CASE("names that differ only in writing are asked about and remain two stations") {
     auto files = files_with({"No.1", "no.1", "0016", "16", "16", "17"});
     const auto remarks = text::in_english(make_table_names(files));
     REQUIRE(remarks.size() == 2);
@@ -60,7 +58,7 @@ TEST_CASE("names that differ only in writing are asked about and remain two stat
     CHECK(find_stays(files).size() == 5);
 }
 
-TEST_CASE("a file with a byte-order mark is read", "[gravimeter]") {
+TEST_CASE("a file with a byte-order mark is read") {
     const std::string mark = "\xEF\xBB\xBF";
     CHECK(read(mark + cg6_header() + cg6_reading("A", "10:00:00")).readings.size() == 1);
     CHECK(read(mark + burris_reading("A", "10:00:00")).readings.front().site == "A");

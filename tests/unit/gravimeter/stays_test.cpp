@@ -27,9 +27,8 @@ std::string table(const std::vector<text::NamedText>& tables, const std::string&
 }  // namespace
 
 TEST_CASE(
-    "a stay ends with the station, a long pause or a new setting of the dial, and the dial begins "
-    "a loop",
-    "[gravimeter]") {
+    "a stay ends with the station, a long pause or a new setting of the dial, and the dial "
+    "begins a loop") {
     auto files = read_files({burris_reading("a", "10:00:00") + burris_reading("a", "10:01:00") +
                              burris_reading("b", "10:10:00") + burris_reading("b", "11:10:01") +
                              burris_reading("b", "11:11:00", "2850") +
@@ -42,14 +41,13 @@ TEST_CASE(
     CHECK(text == "a1 loop 1 n 2; b1 loop 1 n 1; b2 loop 1 n 1; b3 loop 2 n 1; a2 loop 2 n 1; ");
 }
 
-TEST_CASE("a stay ends where the tide correction is switched", "[gravimeter]") {
+TEST_CASE("a stay ends where the tide correction is switched") {
     auto files = read_files(
         {cg6_header() + cg6_reading("A", "10:00:00") + cg6_reading("A", "10:01:00", "11001")});
     CHECK(find_stays(files).size() == 2);
 }
 
-TEST_CASE("several instruments have stays of their own, numbered together at each site",
-          "[gravimeter]") {
+TEST_CASE("several instruments have stays of their own, numbered together at each site") {
     auto files = read_files({burris_reading("a", "10:00:00") + burris_reading("b", "10:20:00"),
                              burris_reading("a", "10:10:00", "2750", ' ', "B108") +
                                  burris_reading("a", "10:11:00", "2750", ' ', "B108")});
@@ -61,7 +59,7 @@ TEST_CASE("several instruments have stays of their own, numbered together at eac
     CHECK(stays[2].site == "b");
 }
 
-TEST_CASE("a reading that is given twice is refused once", "[gravimeter]") {
+TEST_CASE("a reading that is given twice is refused once") {
     const std::string line = burris_reading("a", "10:00:00");
     auto files = read_files({line + burris_reading("a", "10:00:10"), line});
     const auto stays = find_stays(files);
@@ -71,7 +69,7 @@ TEST_CASE("a reading that is given twice is refused once", "[gravimeter]") {
     CHECK(survey_tables(files, stays, {}).size() == 3);  // the second file has no reading left
 }
 
-TEST_CASE("the average of a stay is of its last readings, as median or mean", "[gravimeter]") {
+TEST_CASE("the average of a stay is of its last readings, as median or mean") {
     std::string content = cg5_header("0.0");
     for (const auto& [time, value] : {std::pair("10:00:00", "2009.0"),
                                       {"10:01:00", "2000.0"},
@@ -89,8 +87,7 @@ TEST_CASE("the average of a stay is of its last readings, as median or mean", "[
     CHECK(average_of(stays[0], {2, false}).sd->value() == Approx(std::sqrt(2.0)));
 }
 
-TEST_CASE("the tide of the instrument is kept as its effect on gravity, or taken out",
-          "[gravimeter]") {
+TEST_CASE("the tide of the instrument is kept as its effect on gravity, or taken out") {
     auto files = read_files({burris_reading("a", "10:00:00")});
     const auto stays = find_stays(files);
     const std::string kept = table(survey_tables(files, stays, {}), "observations.csv");
@@ -101,8 +98,7 @@ TEST_CASE("the tide of the instrument is kept as its effect on gravity, or taken
     CHECK_THAT(removed, !ContainsSubstring("earth_tide_mgal"));
 }
 
-TEST_CASE("a tide system leaves its part of the permanent tide in gravity, and is named",
-          "[gravimeter]") {
+TEST_CASE("a tide system leaves its part of the permanent tide in gravity, and is named") {
     TableOptions options;
     options.tide_system = "mean";
     options.kept_tide = [](const Position&) { return MilliGal(-0.035); };
@@ -118,7 +114,7 @@ TEST_CASE("a tide system leaves its part of the permanent tide in gravity, and i
                       ContainsSubstring("--tide-system = mean: a has no position in the files"));
 }
 
-TEST_CASE("a tide that the instrument did not remove cannot be kept", "[gravimeter]") {
+TEST_CASE("a tide that the instrument did not remove cannot be kept") {
     auto files = read_files({cg5_header("0.0", "NO") + cg5_reading("1", "10:00:00")});
     const auto stays = find_stays(files);
     CHECK_THROWS_AS(survey_tables(files, stays, {}), InputError);
@@ -126,7 +122,7 @@ TEST_CASE("a tide that the instrument did not remove cannot be kept", "[gravimet
                ContainsSubstring(",2000.00000,,CG-5 123,1,"));
 }
 
-TEST_CASE("text of the operator cannot break the table of readings", "[gravimeter]") {
+TEST_CASE("text of the operator cannot break the table of readings") {
     auto files =
         read_files({changed(cg6_header() + cg6_reading("A", "10:00:00"), "\t1\t", "\tx,\x01yÄ\t")});
     const auto stays = find_stays(files);

@@ -56,8 +56,7 @@ struct Pair {
 
 }  // namespace
 
-TEST_CASE("without published gravity the gravimeter gives differences at the level of the sensor",
-          "[survey][reference]") {
+TEST_CASE("without published gravity the gravimeter gives differences at the level of the sensor") {
     Pair pair;
     const auto network = hold_reference_values(pair.survey, pair.read);
     CHECK_FALSE(network.network.is_level_known);
@@ -71,8 +70,7 @@ TEST_CASE("without published gravity the gravimeter gives differences at the lev
     CHECK(pair.read.rows[2].u_reference->value() < 0.083);
 }
 
-TEST_CASE("published gravity gives the level, and the scale of the gravimeter if there are two",
-          "[survey][reference]") {
+TEST_CASE("published gravity gives the level, and the scale of the gravimeter if there are two") {
     Pair pair(1.001);
     pair.publish(0, 979900.0);
     pair.publish(2, 979900.0 + 2.0 * kStep_mgal);
@@ -85,8 +83,7 @@ TEST_CASE("published gravity gives the level, and the scale of the gravimeter if
     CHECK(network.network.scales[0].value - 1.0 == Approx(0.001).epsilon(1e-4));
 }
 
-TEST_CASE("the comparison has the stations of both and the uncertainty of the gravimeter's scale",
-          "[survey][reference]") {
+TEST_CASE("the comparison has the stations of both and the uncertainty of the gravimeter's scale") {
     Pair pair;
     const auto network = hold_reference_values(pair.survey, pair.read);
     model::SurveyCorrection result;
@@ -108,8 +105,7 @@ TEST_CASE("the comparison has the stations of both and the uncertainty of the gr
     CHECK(result.scales[0].u == Approx(std::hypot(3e-4, 5e-4)).epsilon(1e-2));
 }
 
-TEST_CASE("a table that is not of a gravimeter, or has no common station, is refused",
-          "[survey][reference]") {
+TEST_CASE("a table that is not of a gravimeter, or has no common station, is refused") {
     Pair other;
     for (reading::SurveyRow& row : other.read.rows) row.site = "elsewhere";
     CHECK_THROWS_WITH(hold_reference_values(other.survey, other.read),

@@ -9,8 +9,7 @@ using namespace a351;
 using namespace a351::corrector;
 using job::with_amendments_key;
 
-TEST_CASE("the key amendments is replaced, or put behind [survey]; nothing else changes",
-          "[survey][amendments]") {
+TEST_CASE("the key amendments is replaced, or put behind [survey]; nothing else changes") {
     CHECK(with_amendments_key("# day\n[survey]\nname = \"d\"\n", "a.toml") ==
           "# day\n[survey]\namendments = \"a.toml\"\nname = \"d\"\n");
     CHECK(with_amendments_key("[survey]\nname = 'd'\n amendments = \"old#1.toml\" # why\n[prior]\n",
@@ -26,8 +25,7 @@ TEST_CASE("the key amendments is replaced, or put behind [survey]; nothing else 
     CHECK(with_amendments_key(padding + "[survey]\n", "a").starts_with(padding));
 }
 
-TEST_CASE("steps that do not divide the readings are not used, with a warning",
-          "[survey][amendments]") {
+TEST_CASE("steps that do not divide the readings are not used, with a warning") {
     reading::OccupationRows read;
     const UtcTime start = parse_rfc3339("2026-05-01T00:00:00Z").value();
     const auto hour = [start](double h) { return start + from_seconds(3600.0 * h); };

@@ -31,7 +31,7 @@ struct Desk {
 
 }  // namespace
 
-TEST_CASE("a survey file names the readings of a reference gravimeter", "[survey][survey_file]") {
+TEST_CASE("a survey file names the readings of a reference gravimeter") {
     const Desk desk;
     desk.folder.write("meter.csv", "");
     const SurveyFile survey = desk.read(
@@ -52,7 +52,7 @@ TEST_CASE("a survey file names the readings of a reference gravimeter", "[survey
     }
 }
 
-TEST_CASE("an empty survey file has the documented defaults", "[survey][survey_file]") {
+TEST_CASE("an empty survey file has the documented defaults") {
     const Desk desk;
     const SurveyFile survey = desk.read("[survey]\n");
     CHECK(survey.name == "day");
@@ -70,7 +70,7 @@ TEST_CASE("an empty survey file has the documented defaults", "[survey][survey_f
     CHECK(survey.averaging.cutoff_s == RepresentativeOptions().cutoff_s);
 }
 
-TEST_CASE("every key of a survey file is read", "[survey][survey_file]") {
+TEST_CASE("every key of a survey file is read") {
     const Desk desk;
     const SurveyFile survey = desk.read(
         "[survey]\nname='first'\nroot='data'\nsites='sites.csv'\noccupations='o.csv'\n"
@@ -95,7 +95,7 @@ TEST_CASE("every key of a survey file is read", "[survey][survey_file]") {
     CHECK(survey.averaging.norm == NormOrder::as_published);
 }
 
-TEST_CASE("a site is named in wide characters as well", "[survey][survey_file]") {
+TEST_CASE("a site is named in wide characters as well") {
     const Desk desk;
     const SurveyFile survey =
         desk.read("[survey]\nbase = \"\uFF2E\uFF4F.0\"\ndatum = [\"No.\uFF10\"]\n");
@@ -103,7 +103,7 @@ TEST_CASE("a site is named in wide characters as well", "[survey][survey_file]")
     CHECK(survey.survey.datum == std::vector<std::string>{"No.0"});
 }
 
-TEST_CASE("priors are read with mean and standard deviation", "[survey][survey_file]") {
+TEST_CASE("priors are read with mean and standard deviation") {
     const Desk desk;
     const adjustment::Priors priors =
         desk.read("[survey]\nreading_sd_mgal=1.5\n[prior]\nrate_mgal_per_degc_per_h=[10,6]\n")
@@ -115,8 +115,7 @@ TEST_CASE("priors are read with mean and standard deviation", "[survey][survey_f
     CHECK(priors.reading_sd_mgal == 1.5);
 }
 
-TEST_CASE("the model paper uses the publication's trend and curve, whatever is configured",
-          "[survey][survey_file]") {
+TEST_CASE("the model paper uses the publication's trend and curve, whatever is configured") {
     const Desk desk;
     CHECK(averaging_of(desk.read("[survey]\nmodel='paper'\n")).curve == TrendCurve::paper);
     CHECK(averaging_of(desk.read("[survey]\nmodel='t'\n")).curve == TrendCurve::slow);
@@ -126,7 +125,7 @@ TEST_CASE("the model paper uses the publication's trend and curve, whatever is c
           TrendMethod::smoother);
 }
 
-TEST_CASE("the tide can be a file beside the survey file", "[survey][survey_file]") {
+TEST_CASE("the tide can be a file beside the survey file") {
     const Desk desk;
     desk.folder.write("tide.csv", "");
     const SurveyFile survey = desk.read("[survey]\ntide='tide.csv'\n");
@@ -134,7 +133,7 @@ TEST_CASE("the tide can be a file beside the survey file", "[survey][survey_file
     CHECK(survey.tide.series == desk.folder.path() / "tide.csv");
 }
 
-TEST_CASE("a bad survey file is refused with line, key and value", "[survey][survey_file]") {
+TEST_CASE("a bad survey file is refused with line, key and value") {
     const Desk desk;
     const auto [toml, message] = GENERATE(table<std::string, std::string>({
         {"[survey]\nbasis='No.0'\n", ":2: survey.basis = 'No.0': unknown key"},

@@ -7,8 +7,7 @@ using namespace a351::corrector::job;
 using namespace a351::corrector::reading;
 using namespace a351::unit;
 
-TEST_CASE("a calibration of another unit is refused, an old one gives a remark",
-          "[survey][calibration]") {
+TEST_CASE("a calibration of another unit is refused, an old one gives a remark") {
     const UtcTime start = parse_rfc3339("2026-03-01T00:00:00Z").value();
     Calibration known;
     known.serial_number = "7";

@@ -50,15 +50,14 @@ double value(MilliGal quantity) { return quantity.value(); }
 
 }  // namespace
 
-TEST_CASE("a difference explained by tilt does not count as drift", "[report][closure]") {
+TEST_CASE("a difference explained by tilt does not count as drift") {
     SurveyCorrection result = survey();
     const double before = close_stations(result)[0].drift_mgal_per_h.value();
     result.rows[2].tilt_correction = MilliGal(3.0);
     CHECK(close_stations(result)[0].drift_mgal_per_h.value() == Approx(before + 1.5));
 }
 
-TEST_CASE("each pair of readings of a station has its difference after each correction",
-          "[report][closure]") {
+TEST_CASE("each pair of readings of a station has its difference after each correction") {
     const std::vector<Closure> closures = close_stations(survey());
     REQUIRE(closures.size() == 3);
     const Closure& pair = closures[0];
@@ -74,7 +73,7 @@ TEST_CASE("each pair of readings of a station has its difference after each corr
     CHECK(closures[1].later == 3);
 }
 
-TEST_CASE("set-ups of one stay imply no drift", "[report][closure]") {
+TEST_CASE("set-ups of one stay imply no drift") {
     const Closure pair = close_stations(survey())[2];
     CHECK(pair.earlier == 2);
     CHECK(pair.later == 3);
@@ -82,7 +81,7 @@ TEST_CASE("set-ups of one stay imply no drift", "[report][closure]") {
     CHECK_FALSE(pair.drift_mgal_per_h.has_value());
 }
 
-TEST_CASE("the RMS of the closures is the RMS of their differences", "[report][closure]") {
+TEST_CASE("the RMS of the closures is the RMS of their differences") {
     auto closures = close_stations(survey());
     closures.pop_back();
     closures[1].before = MilliGal(8.0);

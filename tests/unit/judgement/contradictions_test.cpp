@@ -44,8 +44,7 @@ std::string said(const SurveyCorrection& result) {
 
 }  // namespace
 
-TEST_CASE("known stations contradict from four uncertainties on; of two neither is named alone",
-          "[contradiction]") {
+TEST_CASE("known stations contradict from four uncertainties on; of two neither is named alone") {
     CHECK(said(day({"A", "B"}, 3.0)).empty());
     const std::string of_both =
         "K0 A and B contradict each other by 8.0 mGal: one of them has a wrong name or reference; "
@@ -69,7 +68,7 @@ TEST_CASE("known stations contradict from four uncertainties on; of two neither 
     CHECK(said(three).empty());
 }
 
-TEST_CASE("a lesser contradiction hides no greater one of its stay", "[contradiction]") {
+TEST_CASE("a lesser contradiction hides no greater one of its stay") {
     SurveyCorrection references = day({"A", "B", "B", "C"}, 0.0);
     references.rows[1].studentised_residual = 3.5;
     references.rows[2].studentised_residual = 4.5;
@@ -85,8 +84,8 @@ TEST_CASE("a lesser contradiction hides no greater one of its stay", "[contradic
     CHECK(contradictions(three).size() == 1);
 }
 
-TEST_CASE("two stations that contradict each other enlarge all uncertainties, one of many does not",
-          "[contradiction]") {
+TEST_CASE(
+    "two stations that contradict each other enlarge all uncertainties, one of many does not") {
     CHECK(doubt_factor(day({"A", "B"}, 0.5)) == 1.0);
     CHECK(doubt_factor(day({"A", "B"}, 6.745)) == Approx(10.0).epsilon(1e-3));
     SurveyCorrection many = day({"A", "B", "C", "D", "E"}, 0.5);
@@ -94,8 +93,7 @@ TEST_CASE("two stations that contradict each other enlarge all uncertainties, on
     CHECK(doubt_factor(many) == 1.0);
 }
 
-TEST_CASE("set-ups of a stay contradict when they differ by more than their placement allows",
-          "[contradiction]") {
+TEST_CASE("set-ups of a stay contradict when they differ by more than their placement allows") {
     SurveyCorrection result = day({"A", "B", "B"}, 0.0);
     result.rows[2].corrected = MilliGal(5.0);  // 3 x sqrt 2 x 1.2 = 5.09
     CHECK(said(result).empty());
@@ -124,8 +122,7 @@ TEST_CASE("set-ups of a stay contradict when they differ by more than their plac
     CHECK(said(result).empty());
 }
 
-TEST_CASE("a mistake of the search is a contradiction, and its reading is named once",
-          "[contradiction]") {
+TEST_CASE("a mistake of the search is a contradiction, and its reading is named once") {
     SurveyCorrection result = day({"A", "B", "C"}, 9.0);
     result.findings = {{.kind = corrector::reading::FindingKind::reference,
                         .code = "reference",
@@ -142,7 +139,7 @@ TEST_CASE("a mistake of the search is a contradiction, and its reading is named 
     CHECK(all[2].site == "C");
 }
 
-TEST_CASE("a step that one known reading shows may be a wrong name as well", "[contradiction]") {
+TEST_CASE("a step that one known reading shows may be a wrong name as well") {
     SurveyCorrection result = day({"A", "B", "C", "D"}, 0.0);
     result.findings = {{.kind = corrector::reading::FindingKind::step,
                         .code = "step",

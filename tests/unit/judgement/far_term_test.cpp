@@ -112,8 +112,7 @@ std::vector<Finding> mistakes(const model::SurveyCorrection& result) {
 
 }  // namespace
 
-TEST_CASE("meters whose scales differ by more than their prior are named, and no reference is",
-          "[judgement][scale]") {
+TEST_CASE("meters whose scales differ by more than their prior are named, and no reference is") {
     const Line six = day({1.0007, 1.0004, 1.0001, 0.9999, 0.9996, 0.9993});
     const auto found = mistakes(six.corrected(adjustment::Prior{1.0, 1e-4}));
     REQUIRE(!found.empty());
@@ -125,8 +124,7 @@ TEST_CASE("meters whose scales differ by more than their prior are named, and no
     CHECK(mistakes(six.corrected(adjustment::Prior{1.0, 0.001})).empty());
 }
 
-TEST_CASE("a scale that another one, which is held, pushes away is named too",
-          "[judgement][scale]") {
+TEST_CASE("a scale that another one, which is held, pushes away is named too") {
     const Line two = two_meters_of_which_one_is_off();
     const auto result = two.corrected(adjustment::Prior{1.0, 1e-4});
     const auto found = mistakes(result);
@@ -143,8 +141,7 @@ TEST_CASE("a scale that another one, which is held, pushes away is named too",
         CHECK_THAT(remark.english(), !ContainsSubstring("does not use"));
 }
 
-TEST_CASE("no further scale is held while a mistake may be what pushes it away",
-          "[judgement][scale]") {
+TEST_CASE("no further scale is held while a mistake may be what pushes it away") {
     Line two = two_meters_of_which_one_is_off();
     two.step(10, "M1", 0.4);
     const auto found = mistakes(two.corrected(adjustment::Prior{1.0, 1e-4}));
@@ -152,8 +149,7 @@ TEST_CASE("no further scale is held while a mistake may be what pushes it away",
     CHECK(std::ranges::count(found, FindingKind::scale, &Finding::kind) == 1);
 }
 
-TEST_CASE("a step is named with the uncertainty that the scale gives it, and the scale is not",
-          "[judgement][scale]") {
+TEST_CASE("a step is named with the uncertainty that the scale gives it, and the scale is not") {
     constexpr double kStep_mgal = 97.67;
     Line line = day({1.0});
     line.step(6, "M0", kStep_mgal);
@@ -169,8 +165,7 @@ TEST_CASE("a step is named with the uncertainty that the scale gives it, and the
     CHECK(std::abs(result.scales[0].value - 1.0) < 4.0 * 0.002);
 }
 
-TEST_CASE("readings too far from gravity for any bias are named, but not those of a gravimeter",
-          "[judgement][scale]") {
+TEST_CASE("readings too far from gravity for any bias are named, but not those of a gravimeter") {
     const auto found = [](double reading_mgal, int face = 1) {
         model::CorrectedRow row;
         row.row.acceleration = MilliGal(reading_mgal);
@@ -188,7 +183,7 @@ TEST_CASE("readings too far from gravity for any bias are named, but not those o
     CHECK_FALSE(judgement::far_bias({}));
 }
 
-TEST_CASE("a step of one of two meters is a step of this meter only", "[judgement][scale]") {
+TEST_CASE("a step of one of two meters is a step of this meter only") {
     Line line = day({1.0, 1.0});
     line.step(10, "M1", 0.4);
     const auto found = mistakes(line.corrected());
@@ -198,7 +193,7 @@ TEST_CASE("a step of one of two meters is a step of this meter only", "[judgemen
     CHECK_THAT(found[0].text.english(), ContainsSubstring("M1"));
 }
 
-TEST_CASE("a step says what the prior of the scale leaves open", "[judgement][scale]") {
+TEST_CASE("a step says what the prior of the scale leaves open") {
     // The stations before the step are close together, and so are those after it: only the prior says
     // that the difference of 97 mGal is a step and not a scale of zero.
     const Place a{"A", 0.0, true}, b{"B", 0.3, true}, c{"C", -97.0, true}, d{"D", -97.2, true};
@@ -214,7 +209,7 @@ TEST_CASE("a step says what the prior of the scale leaves open", "[judgement][sc
     CHECK(*step->u_mgal < 1.5 * 0.002 * 97.0);
 }
 
-TEST_CASE("a scale that is held keeps the uncertainty of its prior", "[judgement][scale]") {
+TEST_CASE("a scale that is held keeps the uncertainty of its prior") {
     // The scale of the meter is 8 standard deviations from its prior; B is 151 mGal away.
     Line line = day({1.0008});
     for (reading::SurveyRow& row : line.rows) {
@@ -231,8 +226,7 @@ TEST_CASE("a scale that is held keeps the uncertainty of its prior", "[judgement
     CHECK(far->u_gravity->value() > 0.009);
 }
 
-TEST_CASE("many loops of two meters whose scales are far from their prior are adjusted",
-          "[judgement][scale]") {
+TEST_CASE("many loops of two meters whose scales are far from their prior are adjusted") {
     Line line;
     for (int loop = 0; loop < 20; ++loop) {
         const std::size_t first = line.rows.size();

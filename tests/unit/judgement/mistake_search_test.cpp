@@ -94,7 +94,7 @@ using Numbers = std::vector<std::size_t>;
 
 }  // namespace
 
-TEST_CASE("a reading, a reference, a swap and a step are found with their sizes", "[mistake]") {
+TEST_CASE("a reading, a reference, a swap and a step are found with their sizes") {
     MadeUp stay(1), set_up(2), station(3), swap(4), step(5);
     stay.add(8, 9, 14.0);
     set_up.add(5, 6, -12.0);
@@ -124,8 +124,7 @@ TEST_CASE("a reading, a reference, a swap and a step are found with their sizes"
     }
 }
 
-TEST_CASE("in two faces no step is searched for, because one of the bias has two signs",
-          "[mistake][faces]") {
+TEST_CASE("in two faces no step is searched for, because one of the bias has two signs") {
     MadeUp survey(5);
     survey.add(7, 18, -11.0);
     CHECK(survey.search().at(0).kind == MistakeKind::step);
@@ -133,7 +132,7 @@ TEST_CASE("in two faces no step is searched for, because one of the bias has two
     for (const Mistake& found : survey.search()) CHECK(found.kind != MistakeKind::step);
 }
 
-TEST_CASE("several mistakes of one day are found together", "[mistake]") {
+TEST_CASE("several mistakes of one day are found together") {
     MadeUp day(6);
     day.add(2, 3, 40.0);   // C
     day.add(6, 7, -20.0);  // F
@@ -147,7 +146,7 @@ TEST_CASE("several mistakes of one day are found together", "[mistake]") {
     CHECK(found[2].readings.front() == 9);
 }
 
-TEST_CASE("mistakes that cancel each other explain nothing together", "[mistake]") {
+TEST_CASE("mistakes that cancel each other explain nothing together") {
     MadeUp real(7), clean(7);
     real.add(3, 4, 36.0);
     real.add(11, 12, -36.0);
@@ -168,7 +167,7 @@ TEST_CASE("mistakes that cancel each other explain nothing together", "[mistake]
     CHECK(gain(clean, {swap(3, 11), swap(11, 3)}) < 0.0);
 }
 
-TEST_CASE("in surveys without a mistake one is found as seldom as stated", "[mistake]") {
+TEST_CASE("in surveys without a mistake one is found as seldom as stated") {
     constexpr int kSurveys = 100;
     int found = 0;
     for (int seed = 1; seed <= kSurveys; ++seed)
@@ -178,7 +177,7 @@ TEST_CASE("in surveys without a mistake one is found as seldom as stated", "[mis
     CHECK(found <= 8);
 }
 
-TEST_CASE("without a mistake the clearest one has any probability equally often", "[mistake]") {
+TEST_CASE("without a mistake the clearest one has any probability equally often") {
     const int surveys = a351::test::is_long() ? 300 : 60;
     int below_tenth = 0, below_half = 0;
     for (int seed = 1; seed <= surveys; ++seed) {
@@ -195,7 +194,7 @@ TEST_CASE("without a mistake the clearest one has any probability equally often"
     CHECK(std::abs(below_half - 0.5 * surveys) <= 3.0 * std::sqrt(0.25 * surveys));
 }
 
-TEST_CASE("a step next to an end of the day is a reading that is off", "[mistake]") {
+TEST_CASE("a step next to an end of the day is a reading that is off") {
     MadeUp day(7);
     day.add(1, 18, 30.0);
     const auto found = day.search();
@@ -205,7 +204,7 @@ TEST_CASE("a step next to an end of the day is a reading that is off", "[mistake
     CHECK(found[0].size_mgal < -20.0);
 }
 
-TEST_CASE("an unknown that is there twice takes one direction only", "[mistake]") {
+TEST_CASE("an unknown that is there twice takes one direction only") {
     Eigen::MatrixXd a(6, 3);
     for (Eigen::Index i = 0; i < 6; ++i) a.row(i) << 1.0, static_cast<double>(i), 1.0;
     const Eigen::MatrixXd basis = adjustment::orthonormal_basis(a);
@@ -213,7 +212,7 @@ TEST_CASE("an unknown that is there twice takes one direction only", "[mistake]"
     CHECK((basis * (basis.transpose() * a) - a).norm() < 1e-12);
 }
 
-TEST_CASE("nothing is searched with too few readings, or without residuals", "[mistake]") {
+TEST_CASE("nothing is searched with too few readings, or without residuals") {
     MadeUp day(8);
     day.add(2, 3, 40.0);
     day.list.resize(5);

@@ -34,8 +34,8 @@ std::vector<std::string> beyond(const std::vector<SurveyRow>& rows, double limit
 
 }  // namespace
 
-TEST_CASE("rate, shape with range, fallback and pulse give physical doubts that state their value",
-          "[survey][physical_doubt]") {
+TEST_CASE(
+    "rate, shape with range, fallback and pulse give physical doubts that state their value") {
     SurveyRow row;
     row.rate_degc_per_h = -0.2;
     CHECK(physical_doubt(row).empty());
@@ -57,8 +57,7 @@ TEST_CASE("rate, shape with range, fallback and pulse give physical doubts that 
     CHECK(physical_doubt(shaped).empty());
 }
 
-TEST_CASE("a blunder alone has a large studentised residual, in the fit or not",
-          "[survey][physical_doubt]") {
+TEST_CASE("a blunder alone has a large studentised residual, in the fit or not") {
     auto rows = scattered_day();
     CHECK(beyond(rows, kStudentLimit).empty());
     add(rows[2], 60.0);
@@ -68,8 +67,7 @@ TEST_CASE("a blunder alone has a large studentised residual, in the fit or not",
     CHECK(beyond(rows, kStudentLimit) == std::vector<std::string>{"S2 (1)"});
 }
 
-TEST_CASE("a network shows a blunder at a station that was read several times",
-          "[survey][physical_doubt]") {
+TEST_CASE("a network shows a blunder at a station that was read several times") {
     std::vector<SurveyRow> thrice;  // every station again, so that the network is controlled
     for (const SurveyRow& row : scattered_day())
         for (const int shift_min : {0, 5, 10}) {

@@ -42,14 +42,14 @@ std::string first_reasons(const SurveyCorrection& result) {
 
 }  // namespace
 
-TEST_CASE("a reading at its limits is trusted", "[report][grade]") {
+TEST_CASE("a reading at its limits is trusted") {
     const SurveyCorrection result = quiet(2);
     CHECK(first_grade(result) == Grade::trust);
     CHECK(first_reasons(result).empty());
     CHECK(grade_of_station(result, grade_readings(result), "B").grade == Grade::trust);
 }
 
-TEST_CASE("no reading of a survey is trusted if the survey as a whole is not", "[report][grade]") {
+TEST_CASE("no reading of a survey is trusted if the survey as a whole is not") {
     SurveyCorrection network = quiet(2);
     NetworkPart part;
     part.dof = 4;
@@ -68,8 +68,7 @@ TEST_CASE("no reading of a survey is trusted if the survey as a whole is not", "
     CHECK(first_reasons(unusable) == "not usable|");
 }
 
-TEST_CASE("a moving temperature is graded repeat, or care if the model has a rate term",
-          "[report][grade]") {
+TEST_CASE("a moving temperature is graded repeat, or care if the model has a rate term") {
     SurveyCorrection result = quiet(2);
     result.rows[0].row.rate_degc_per_h = -0.21;
     CHECK(first_grade(result) == Grade::repeat);
@@ -81,8 +80,7 @@ TEST_CASE("a moving temperature is graded repeat, or care if the model has a rat
                ContainsSubstring("depends on a rate correction of 5.2 mGal"));
 }
 
-TEST_CASE("a temperature that moves one way is graded repeat above the limit of its range",
-          "[report][grade]") {
+TEST_CASE("a temperature that moves one way is graded repeat above the limit of its range") {
     SurveyCorrection result = quiet(1);
     RecordSummary& record = result.rows[0].row.record.emplace();
     record.temperature_range = DegC(0.051);
@@ -94,8 +92,7 @@ TEST_CASE("a temperature that moves one way is graded repeat above the limit of 
     CHECK(first_grade(result) == Grade::repeat);
 }
 
-TEST_CASE("the whole-day model is graded by its prediction without the station",
-          "[report][grade]") {
+TEST_CASE("the whole-day model is graded by its prediction without the station") {
     SurveyCorrection result = quiet(1);
     result.own = WholeDayPart{};
     result.rows[0].residual = MilliGal(9.0);
@@ -108,8 +105,7 @@ TEST_CASE("the whole-day model is graded by its prediction without the station",
           "the uncertainty expected if name and reference are right|");
 }
 
-TEST_CASE("a reading with a scatter above its uncertainty is graded care, a shaken one repeat",
-          "[report][grade]") {
+TEST_CASE("a reading with a scatter above its uncertainty is graded care, a shaken one repeat") {
     SurveyCorrection result = quiet(1);
     result.rows[0].row.record.emplace();
     auto& record = *result.rows[0].row.record;
@@ -136,8 +132,7 @@ TEST_CASE("a reading with a scatter above its uncertainty is graded care, a shak
           "more than its u of 2.0 mGal|");
 }
 
-TEST_CASE("set-ups of one station are compared by the placement scatter of the whole-day model",
-          "[report][grade]") {
+TEST_CASE("set-ups of one station are compared by the placement scatter of the whole-day model") {
     SurveyCorrection result = quiet(2);
     result.own = WholeDayPart{};
     result.score.s_mgal.reset();
@@ -152,8 +147,8 @@ TEST_CASE("set-ups of one station are compared by the placement scatter of the w
           "differs by 4.3 mGal from A (1b), 2.0 times the value expected from placement|");
 }
 
-TEST_CASE("what does not make the readings of the whole-day model worse does not lower their grade",
-          "[report][grade]") {
+TEST_CASE(
+    "what does not make the readings of the whole-day model worse does not lower their grade") {
     SurveyCorrection result = quiet(1);
     SurveyRow& row = result.rows[0].row;
     row.notes = {"pulse", "gap", "fallback", "disturbed_end", "unsettled", "moved", "no-stop"};
@@ -165,16 +160,14 @@ TEST_CASE("what does not make the readings of the whole-day model worse does not
     CHECK(first_reasons(result).empty());
 }
 
-TEST_CASE("a record split by a knock is graded care, except for the whole-day model",
-          "[report][grade]") {
+TEST_CASE("a record split by a knock is graded care, except for the whole-day model") {
     SurveyCorrection result = quiet(1);
     result.rows[0].row.notes = {"pulse"};
     CHECK(first_grade(result) == Grade::care);
     CHECK(first_reasons(result) == "a knock split the record; its longest part was used|");
 }
 
-TEST_CASE("a mistake found at a stay lowers its grade; a remark or a move of the box does not",
-          "[report][grade]") {
+TEST_CASE("a mistake found at a stay lowers its grade; a remark or a move of the box does not") {
     SurveyCorrection result = quiet(1);
     Finding finding{.code = "found", .site = "A", .occupation = 1, .text = "found"};
     const auto grade_with = [&](FindingKind kind) {
@@ -189,8 +182,7 @@ TEST_CASE("a mistake found at a stay lowers its grade; a remark or a move of the
     CHECK(grade_with(FindingKind::bad_reading) == Grade::repeat);
 }
 
-TEST_CASE("an excluded reading is graded repeat, an amended one can be trusted",
-          "[report][grade]") {
+TEST_CASE("an excluded reading is graded repeat, an amended one can be trusted") {
     SurveyCorrection result = quiet(1);
     result.rows[0].row.notes = {"excluded"};
     CHECK(first_grade(result) == Grade::repeat);
@@ -198,7 +190,7 @@ TEST_CASE("an excluded reading is graded repeat, an amended one can be trusted",
     CHECK(first_grade(result) == Grade::trust);
 }
 
-TEST_CASE("a residual above two u is graded care, above three u repeat", "[report][grade]") {
+TEST_CASE("a residual above two u is graded care, above three u repeat") {
     SurveyCorrection result = quiet(1);
     result.rows[0].residual = MilliGal(4.1);
     CHECK(first_grade(result) == Grade::care);
@@ -209,8 +201,7 @@ TEST_CASE("a residual above two u is graded care, above three u repeat", "[repor
     CHECK(first_grade(result) == Grade::trust);
 }
 
-TEST_CASE("a reading that the operator marked is graded repeat unless it is in the fit",
-          "[report][grade]") {
+TEST_CASE("a reading that the operator marked is graded repeat unless it is in the fit") {
     SurveyCorrection result = quiet(1);
     result.rows[0].row.is_flagged = true;
     CHECK(first_grade(result) == Grade::trust);
@@ -218,7 +209,7 @@ TEST_CASE("a reading that the operator marked is graded repeat unless it is in t
     CHECK(first_grade(result) == Grade::repeat);
 }
 
-TEST_CASE("readings of one station that disagree are both graded care", "[report][grade]") {
+TEST_CASE("readings of one station that disagree are both graded care") {
     SurveyCorrection result = quiet(2);
     result.rows[1].row.site = "A";
     result.rows[1].row.occupation = 2;
@@ -235,7 +226,7 @@ TEST_CASE("readings of one station that disagree are both graded care", "[report
     CHECK(first_grade(result) == Grade::trust);
 }
 
-TEST_CASE("a station has the best grade of its readings, with their reasons", "[report][grade]") {
+TEST_CASE("a station has the best grade of its readings, with their reasons") {
     SurveyCorrection result = quiet(3);
     result.rows[2].row.site = "A";
     result.rows[2].row.occupation = 2;
@@ -250,7 +241,7 @@ TEST_CASE("a station has the best grade of its readings, with their reasons", "[
     CHECK(reason_text(grade_of_station(result, grades, "A")) == "A (2): y");
 }
 
-TEST_CASE("set-ups of one stay are distinguished by letters", "[report][grade]") {
+TEST_CASE("set-ups of one stay are distinguished by letters") {
     SurveyCorrection result = quiet(3);
     result.rows[2].row.site = "A";
     CHECK(reading_name(result.rows, 0) == "A (1a)");

@@ -51,7 +51,7 @@ using Kinds = std::vector<std::string>;
 
 }  // namespace
 
-TEST_CASE("of a good day only the benchmarks that were not visited are said", "[mistake]") {
+TEST_CASE("of a good day only the benchmarks that were not visited are said") {
     for (const std::string model : {"t-rate-drift", "network", "paper"}) {
         const auto findings = Day().findings(model);
         REQUIRE(kinds(findings) == Kinds{"not_visited"});
@@ -60,7 +60,7 @@ TEST_CASE("of a good day only the benchmarks that were not visited are said", "[
     }
 }
 
-TEST_CASE("a wrong reference is named with its size and an amendment", "[mistake]") {
+TEST_CASE("a wrong reference is named with its size and an amendment") {
     Day day;
     for (auto& row : day.rows)
         if (row.site == "S2") row.reference = *row.reference + MilliGal(50.0);
@@ -75,7 +75,7 @@ TEST_CASE("a wrong reference is named with its size and an amendment", "[mistake
     }
 }
 
-TEST_CASE("a reading under another site's name is named with that site", "[mistake]") {
+TEST_CASE("a reading under another site's name is named with that site") {
     Day day;
     const text::Site& other = day.sites.back();
     // S5 was read, but it is called S9
@@ -90,7 +90,7 @@ TEST_CASE("a reading under another site's name is named with that site", "[mista
           "[[rename]]\nsite = \"S9\"\noccupation = 1\nto = \"S5\"\nreason = \"reads like S5\"\n");
 }
 
-TEST_CASE("swapped names are two findings, a step has its time", "[mistake]") {
+TEST_CASE("swapped names are two findings, a step has its time") {
     Day swapped;
     std::swap(swapped.rows[1].site, swapped.rows[8].site);
     std::swap(swapped.rows[1].reference, swapped.rows[8].reference);
@@ -121,7 +121,7 @@ TEST_CASE("swapped names are two findings, a step has its time", "[mistake]") {
     }
 }
 
-TEST_CASE("a bad reading of a station with others is to be repeated", "[mistake]") {
+TEST_CASE("a bad reading of a station with others is to be repeated") {
     Day day;
     day.off(9, 25.0);  // the second stay at S2
     const auto findings = day.findings();
@@ -134,7 +134,7 @@ TEST_CASE("a bad reading of a station with others is to be repeated", "[mistake]
     CHECK(kinds(day.findings()) == Kinds{"not_visited"});
 }
 
-TEST_CASE("two bad readings of one day are both named", "[mistake]") {
+TEST_CASE("two bad readings of one day are both named") {
     Day day;
     day.off(2, 60.0);
     day.off(8, -40.0);
@@ -144,8 +144,7 @@ TEST_CASE("two bad readings of one day are both named", "[mistake]") {
     CHECK(sites == std::set<std::string>{"S2", "S7"});
 }
 
-TEST_CASE("nothing is said of benchmarks that another sensor of the day may have visited",
-          "[mistake]") {
+TEST_CASE("nothing is said of benchmarks that another sensor of the day may have visited") {
     const Day day;
     model::SurveyCorrection result = model::correct_survey(day.rows, {.model = "t-rate-drift"});
     result.findings.push_back({.kind = FindingKind::other_unit, .code = "other_unit"});
@@ -153,7 +152,7 @@ TEST_CASE("nothing is said of benchmarks that another sensor of the day may have
           Kinds{"other_unit"});
 }
 
-TEST_CASE("a day that no mistake explains is not usable either", "[mistake]") {
+TEST_CASE("a day that no mistake explains is not usable either") {
     Day day;
     const std::vector<reading::SurveyRow> right = day.rows;
     for (std::size_t i = 0; i < right.size(); ++i) {  // each has the name of the next one
@@ -182,7 +181,7 @@ TEST_CASE("a day that no mistake explains is not usable either", "[mistake]") {
     CHECK(std::ranges::count(kinds(day.findings("t")), "unusable_day") == 0);
 }
 
-TEST_CASE("a site that does not fit the others is a remark", "[mistake]") {
+TEST_CASE("a site that does not fit the others is a remark") {
     Day day;
     day.sites[2].longitude = Degrees(-140.0);
     const auto found = day.findings();
@@ -191,7 +190,7 @@ TEST_CASE("a site that does not fit the others is a remark", "[mistake]") {
     CHECK_FALSE(found[0].is_headline);
 }
 
-TEST_CASE("a base with one stay is named", "[mistake]") {
+TEST_CASE("a base with one stay is named") {
     Day day;
     for (const std::size_t i : {std::size_t{4}, std::size_t{11}}) {
         day.rows[i].site = "S1";
@@ -205,8 +204,7 @@ TEST_CASE("a base with one stay is named", "[mistake]") {
           "the base B was read only once; a second stay would show a drift without any reference");
 }
 
-TEST_CASE("a day that the model does not fit is named, with the reading after the step",
-          "[mistake]") {
+TEST_CASE("a day that the model does not fit is named, with the reading after the step") {
     using whole_day::Misfit;
     const Day day;
     model::SurveyOptions options;
@@ -234,14 +232,14 @@ TEST_CASE("a day that the model does not fit is named, with the reading after th
     CHECK(said({Misfit::tails, 0.009, 4}).kind != FindingKind::misfit);
 }
 
-TEST_CASE("a table has findings, but no amendments", "[mistake]") {
+TEST_CASE("a table has findings, but no amendments") {
     Day day;
     for (auto& row : day.rows) row.listed = {};
     day.off(9, 25.0);
     for (const Finding& finding : day.findings()) CHECK(finding.amendment.empty());
 }
 
-TEST_CASE("findings have all keys, and null for what does not apply", "[mistake]") {
+TEST_CASE("findings have all keys, and null for what does not apply") {
     const auto json = reading::findings_json(
         {{.kind = FindingKind::not_visited, .code = "not_visited", .text = "x"}});
     CHECK(
@@ -250,7 +248,7 @@ TEST_CASE("findings have all keys, and null for what does not apply", "[mistake]
         R"("key":null,"time_utc":null,"size_mgal":null,"u_mgal":null,"other_site":null,"text":"x","text_parts":["x"],"amendment":null}])");
 }
 
-TEST_CASE("a mistake does not decide which model is chosen", "[mistake]") {
+TEST_CASE("a mistake does not decide which model is chosen") {
     const Day good;
     const std::string chosen = model::correct_survey(good.rows, {}).model;
     CHECK(chosen == "t-rate-drift");
@@ -275,8 +273,7 @@ TEST_CASE("a mistake does not decide which model is chosen", "[mistake]") {
     CHECK(std::ranges::count(kept.findings, known.text, &Finding::text) == 1);
 }
 
-TEST_CASE("a step over a pause of a night is found where one constant holds for all days",
-          "[judgement]") {
+TEST_CASE("a step over a pause of a night is found where one constant holds for all days") {
     Day day;
     for (std::size_t i = 6; i < day.rows.size(); ++i) {
         day.rows[i].time += std::chrono::hours(20);

@@ -30,7 +30,7 @@ constexpr double kAveraged_s = 1500.0;
 
 }  // namespace
 
-TEST_CASE("the unit's own response reduces the oven's cycle in a record", "[long_record][apply]") {
+TEST_CASE("the unit's own response reduces the oven's cycle in a record") {
     for (const std::uint64_t seed : {731U, 732U}) {
         const RecordSegment segment = simulated_segment("indoor", seed);
         const AppliedCalibration applied =
@@ -48,8 +48,7 @@ TEST_CASE("the unit's own response reduces the oven's cycle in a record", "[long
     }
 }
 
-TEST_CASE("a part that the calibration leaves open is not applied, with a remark",
-          "[long_record][apply]") {
+TEST_CASE("a part that the calibration leaves open is not applied, with a remark") {
     const RecordSegment segment = simulated_segment("indoor", 733);
     ThermalResponse open = true_response();
     open.values.head<3>() << 500.0, 500.0, 300.0;
@@ -60,8 +59,7 @@ TEST_CASE("a part that the calibration leaves open is not applied, with a remark
     CHECK(applied.parametric_mgal == segment.quantity);
 }
 
-TEST_CASE("a sine that only the temperature rate explains is removed by the two-path response",
-          "[long_record][apply]") {
+TEST_CASE("a sine that only the temperature rate explains is removed by the two-path response") {
     RecordSegment segment;
     for (int i = 0; i < 2160; ++i) {
         const double angle = 2.0 * M_PI * 20.0 * i / 1800.0;
@@ -83,8 +81,8 @@ TEST_CASE("a sine that only the temperature rate explains is removed by the two-
     CHECK(rms.by_modes < 0.25 * rms.before);
 }
 
-TEST_CASE("the Allan deviations of a ramp and of alternating samples have their theoretical values",
-          "[long_record][apply]") {
+TEST_CASE(
+    "the Allan deviations of a ramp and of alternating samples have their theoretical values") {
     std::vector<double> ramp, alternating;
     for (int i = 0; i < 64; ++i) {
         ramp.push_back(0.5 * i);

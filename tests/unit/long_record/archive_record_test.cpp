@@ -98,8 +98,7 @@ double middle_mgal(const RecordStretch& stretch) { return stretch.quantity.at(15
 
 }  // namespace
 
-TEST_CASE("a new epoch with the same sensor and scales does not divide the record",
-          "[long_record][archive]") {
+TEST_CASE("a new epoch with the same sensor and scales does not divide the record") {
     Root root;
     root.add();
     root.change("X0000001", 259);
@@ -112,8 +111,7 @@ TEST_CASE("a new epoch with the same sensor and scales does not divide the recor
           Approx(980665.0).epsilon(0.0).margin(0.2));  // the tide
 }
 
-TEST_CASE("the temperature of an outer oven is read beside the record, unless it has a gap",
-          "[long_record][archive]") {
+TEST_CASE("the temperature of an outer oven is read beside the record, unless it has a gap") {
     Root root(true);
     root.add();
     const LongRecord without = root.read();
@@ -135,7 +133,7 @@ TEST_CASE("the temperature of an outer oven is read beside the record, unless it
     CHECK(parts.segments[0].outer_degc.size() == parts.segments[0].size());
 }
 
-TEST_CASE("another sensor begins a new stretch, with a warning", "[long_record][archive]") {
+TEST_CASE("another sensor begins a new stretch, with a warning") {
     Root root;
     root.add();
     root.change("X0000002", 258);
@@ -158,7 +156,7 @@ TEST_CASE("another sensor begins a new stretch, with a warning", "[long_record][
     CHECK(parts.segments[1].begins_with == record.stretches[1].begins_with);
 }
 
-TEST_CASE("samples are scaled by the epoch they belong to", "[long_record][archive]") {
+TEST_CASE("samples are scaled by the epoch they belong to") {
     Root root;
     root.add();
     root.change("X0000001", 259);
@@ -170,7 +168,7 @@ TEST_CASE("samples are scaled by the epoch they belong to", "[long_record][archi
     CHECK(middle_mgal(record.stretches[1]) == Approx(490332.5).epsilon(0.0).margin(0.2));
 }
 
-TEST_CASE("another rate begins a new stretch with its own times", "[long_record][archive]") {
+TEST_CASE("another rate begins a new stretch with its own times") {
     Root root;
     root.add(0.0, 50.0);
     root.add(kHalf_s, 5.0);

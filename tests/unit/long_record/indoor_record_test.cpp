@@ -11,7 +11,7 @@
 using namespace a351;
 using namespace a351::corrector::long_record;
 
-TEST_CASE("simulated nights have the statistics of the night in the publication", "[long_record]") {
+TEST_CASE("simulated nights have the statistics of the night in the publication") {
     constexpr int kSeeds = 10;
     std::map<std::string, double> means;
     for (int seed = 1; seed <= kSeeds; ++seed) {
@@ -31,8 +31,7 @@ TEST_CASE("simulated nights have the statistics of the night in the publication"
     }
 }
 
-TEST_CASE("two correlation peaks of one narrow band are interpreted as one response",
-          "[long_record]") {
+TEST_CASE("two correlation peaks of one narrow band are interpreted as one response") {
     // 257 mGal/degC, negative and 260 s late at 900 s, with nothing else: 9.9 mGal per degC/h.
     std::vector<double> temperature, acceleration;
     for (int i = 0; i < 2160; ++i) {
@@ -49,14 +48,14 @@ TEST_CASE("two correlation peaks of one narrow band are interpreted as one respo
                ContainsSubstring("rate of change") && ContainsSubstring("before the thermometer"));
 }
 
-TEST_CASE("a record shorter than eight cycles is not analysed", "[long_record]") {
+TEST_CASE("a record shorter than eight cycles is not analysed") {
     RecordSegment segment;
     segment.quantity.assign(359, 1.0);
     segment.temperature_degc.assign(359, 1.0);
     CHECK_THROWS_AS(analyse_record(segment, kRecordStep_s, {}), std::invalid_argument);
 }
 
-TEST_CASE("a record without a cycle is not interpreted as if it had one", "[long_record]") {
+TEST_CASE("a record without a cycle is not interpreted as if it had one") {
     RecordSegment segment;
     for (int i = 0; i < 1200; ++i) {
         segment.temperature_degc.push_back(42.5 + 1e-4 * i);

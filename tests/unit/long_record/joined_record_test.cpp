@@ -39,7 +39,7 @@ LongRecord joined(LongRecord first, LongRecord second) {
 
 }  // namespace
 
-TEST_CASE("a night cut into two files is one segment", "[long_record][joining]") {
+TEST_CASE("a night cut into two files is one segment") {
     // The files may be in any order, and some samples may be missing at the cut.
     for (const double missing_s : {0.0, 300.0}) {
         const LongRecord record =
@@ -56,8 +56,7 @@ TEST_CASE("a night cut into two files is one segment", "[long_record][joining]")
     }
 }
 
-TEST_CASE("joined parts have the temperature of an outer oven if all have it, else a warning",
-          "[long_record][joining]") {
+TEST_CASE("joined parts have the temperature of an outer oven if all have it, else a warning") {
     LongRecord first = part(20.0, 0.0, 21600.0), second = part(20.0, 21900.0, 43200.0);
     for (LongRecord* const record : {&first, &second})
         record->stretches[0].outer_degc.assign(record->stretches[0].size(), 38.0);
@@ -73,14 +72,14 @@ TEST_CASE("joined parts have the temperature of an outer oven if all have it, el
     }
 }
 
-TEST_CASE("two files with a longer gap between them are two segments", "[long_record][joining]") {
+TEST_CASE("two files with a longer gap between them are two segments") {
     const RecordSegments parts =
         divide_record(joined(part(20.0, 0.0, 21600.0), part(20.0, 21920.0, 43200.0)));
     REQUIRE(parts.segments.size() == 2);
     CHECK(parts.segments[1].begins_with == "gap of 340 s");
 }
 
-TEST_CASE("decimated files are joined across the ends of their filters", "[long_record][joining]") {
+TEST_CASE("decimated files are joined across the ends of their filters") {
     const LongRecord record =
         joined(part(2.0, 0.0, 21600.0, true), part(2.0, 21600.0, 43200.0, true));
     REQUIRE(record.stretches.size() == 1);
@@ -92,8 +91,7 @@ TEST_CASE("decimated files are joined across the ends of their filters", "[long_
     CHECK(parts.segments[0].bridged > 0);
 }
 
-TEST_CASE("files with different steps, and files that overlap, are refused",
-          "[long_record][joining]") {
+TEST_CASE("files with different steps, and files that overlap, are refused") {
     CHECK_THROWS_WITH(joined(part(20.0, 0.0, 4000.0), part(21.0, 4000.0, 8200.0)),
                       ContainsSubstring("from-4000.csv: a sample every 21 s, ") &&
                           ContainsSubstring("from-0.csv has one every 20 s; "));
@@ -102,7 +100,7 @@ TEST_CASE("files with different steps, and files that overlap, are refused",
                           ContainsSubstring("Z it overlaps ") && ContainsSubstring("from-0.csv; "));
 }
 
-TEST_CASE("a record whose clock was set back is refused with the remedy", "[long_record][joining]") {
+TEST_CASE("a record whose clock was set back is refused with the remedy") {
     LongRecord record = part(20.0, 0.0, 4000.0);
     record.stretches.push_back(part(20.0, 3000.0, 8000.0).stretches.front());
     CHECK_THROWS_WITH(joined_record({record}), ContainsSubstring("from-0.csv: instants from ") &&

@@ -59,8 +59,7 @@ TwoPathFit warm_up_fit(double size_mgal, double size_error, double time_h, doubl
 
 }  // namespace
 
-TEST_CASE("a night calibrates the fast path and leaves the rest undetermined",
-          "[long_record][calibrate]") {
+TEST_CASE("a night calibrates the fast path and leaves the rest undetermined") {
     const sim::scenario::Scenario scenario = of_drawn_units("indoor");
     const PooledThermal pooled = pool_thermal({fitted(scenario, 702)});
     REQUIRE(pooled.response);
@@ -79,8 +78,7 @@ TEST_CASE("a night calibrates the fast path and leaves the rest undetermined",
           4.0 * 15.1);  // 99 % quantile of chi-square with 5 degrees of freedom, errors doubled
 }
 
-TEST_CASE("the errors stated by calibrations cover the true unit in nine of ten cases",
-          "[long_record][calibrate]") {
+TEST_CASE("the errors stated by calibrations cover the true unit in nine of ten cases") {
     // A survey doubles the errors. The 95 % quantile of chi-square with 5 degrees of freedom is
     // 11.07.
     constexpr double kMost = kThermalErrorFactor * kThermalErrorFactor * 11.07;
@@ -99,7 +97,7 @@ TEST_CASE("the errors stated by calibrations cover the true unit in nine of ten 
     CHECK(held >= 18);
 }
 
-TEST_CASE("a calibration does not contain the priors of the fit", "[long_record][calibrate]") {
+TEST_CASE("a calibration does not contain the priors of the fit") {
     // Combined with the fit's priors, the calibration gives the fit again in the directions it
     // contains.
     const TwoPathFit week = fitted("week", 703);
@@ -114,8 +112,7 @@ TEST_CASE("a calibration does not contain the priors of the fit", "[long_record]
     CHECK(error < 1.15 * of_fit);  // the calibration does not contain all directions
 }
 
-TEST_CASE("two equal records halve the variance, and contradicting records are detected",
-          "[long_record][calibrate]") {
+TEST_CASE("two equal records halve the variance, and contradicting records are detected") {
     const TwoPathFit night = fitted("indoor", 704);
     const PooledThermal one = pool_thermal({night}), two = pool_thermal({night, night});
     CHECK(two.parameters[2].standard_error < one.parameters[2].standard_error);
@@ -127,8 +124,8 @@ TEST_CASE("two equal records halve the variance, and contradicting records are d
     CHECK(pool_thermal({night, shifted(night, TwoPathTerm::fast, far)}).agreement_p < 0.01);
 }
 
-TEST_CASE("a record at constant temperature calibrates nothing, and the reason says what is needed",
-          "[long_record][calibrate]") {
+TEST_CASE(
+    "a record at constant temperature calibrates nothing, and the reason says what is needed") {
     RecordSegment segment = simulated_segment("indoor", 705);
     for (std::size_t i = 0; i < segment.size(); ++i)
         segment.temperature_degc[i] = 42.5 + 0.0015 * std::sin(0.7 * static_cast<double>(i * i));
@@ -140,8 +137,7 @@ TEST_CASE("a record at constant temperature calibrates nothing, and the reason s
           "");
 }
 
-TEST_CASE("a fit that does not determine rate and static slope calibrates nothing",
-          "[long_record][calibrate]") {
+TEST_CASE("a fit that does not determine rate and static slope calibrates nothing") {
     TwoPathFit fit = fitted("indoor", 706);
     fit.covariance.setIdentity();
     for (std::size_t k = 0; k < kThermalTerms; ++k) {
@@ -156,8 +152,7 @@ TEST_CASE("a fit that does not determine rate and static slope calibrates nothin
         CHECK_FALSE(parameter.needed.empty());
 }
 
-TEST_CASE("the warm-up ends when its exponential has fallen to the tolerance",
-          "[long_record][calibrate]") {
+TEST_CASE("the warm-up ends when its exponential has fallen to the tolerance") {
     const TwoPathFit fit = warm_up_fit(-36.0, 1e-6, 2.5, 1e-6);
     const WarmUpReading at_once = warm_up_guidance(fit, 0.0, 12.0, 1.0);
     REQUIRE(at_once.guidance);
@@ -172,8 +167,7 @@ TEST_CASE("the warm-up ends when its exponential has fallen to the tolerance",
     CHECK(unsure.guidance->after_power_on_h == Approx(8.959 + 1.645 * 0.8986).margin(1e-3));
 }
 
-TEST_CASE("a warm-up that the record does not show is refused with the reason",
-          "[long_record][calibrate]") {
+TEST_CASE("a warm-up that the record does not show is refused with the reason") {
     const WarmUpReading small = warm_up_guidance(warm_up_fit(5.0, 4.0, 2.5, 0.1), 0, 12, 1.0);
     CHECK_FALSE(small.guidance);
     CHECK_THAT(small.words, ContainsSubstring("switched on"));

@@ -36,8 +36,7 @@ const std::string kHeader = "time_utc,acceleration_mgal,temperature_degc\n";
 
 }  // namespace
 
-TEST_CASE("the stretch does not depend on the size of the blocks in which samples arrive",
-          "[long_record][reading]") {
+TEST_CASE("the stretch does not depend on the size of the blocks in which samples arrive") {
     const auto build = [](std::size_t block) {
         StretchBuilder builder(2, 3);
         builder.set_time(0, kReadingStart);
@@ -73,7 +72,7 @@ TEST_CASE("the stretch does not depend on the size of the blocks in which sample
     }
 }
 
-TEST_CASE("a CSV at 2 s is decimated once, and missing rows are a gap", "[long_record][reading]") {
+TEST_CASE("a CSV at 2 s is decimated once, and missing rows are a gap") {
     const test::TemporaryDirectory folder;
     const auto file = folder.write("r.csv", kHeader + rows(2.0, 0, 1000) + rows(2.0, 1030, 3000));
     const LongRecord record = read_csv_record(file, {}, kSilent);
@@ -87,8 +86,7 @@ TEST_CASE("a CSV at 2 s is decimated once, and missing rows are a gap", "[long_r
     CHECK(stretch.quantity[50] == Approx(979766.0).epsilon(0.0).margin(0.1));
 }
 
-TEST_CASE("a CSV at 20 s is taken as it is, and a long gap begins a new stretch",
-          "[long_record][reading]") {
+TEST_CASE("a CSV at 20 s is taken as it is, and a long gap begins a new stretch") {
     const test::TemporaryDirectory folder;
     const auto file = folder.write("r.csv", kHeader + rows(20.0, 0, 50) + rows(20.0, 300, 350));
     const LongRecord record = read_csv_record(file, {}, kSilent);
@@ -101,7 +99,7 @@ TEST_CASE("a CSV at 20 s is taken as it is, and a long gap begins a new stretch"
     CHECK(read_csv_record(file, window, kSilent).stretches[0].size() == 10);
 }
 
-TEST_CASE("rows missing here and there are not taken for another step", "[long_record][reading]") {
+TEST_CASE("rows missing here and there are not taken for another step") {
     const test::TemporaryDirectory folder;
     std::string text = kHeader;
     for (int i = 0; i < 500; ++i)
@@ -111,7 +109,7 @@ TEST_CASE("rows missing here and there are not taken for another step", "[long_r
     CHECK(record.stretches[0].size() == 499);
 }
 
-TEST_CASE("a file that cannot be a record is refused with its line", "[long_record][reading]") {
+TEST_CASE("a file that cannot be a record is refused with its line") {
     const test::TemporaryDirectory folder;
     const auto refused = [&](const std::string& text, const std::string& message) {
         const auto file = folder.write("r.csv", text);

@@ -32,7 +32,7 @@ void erase(LongRecord& record, std::size_t first, std::size_t end) {
 
 }  // namespace
 
-TEST_CASE("a quiet night is one segment", "[long_record][segments]") {
+TEST_CASE("a quiet night is one segment") {
     const RecordSegments parts = divide_record(night());
     REQUIRE(parts.segments.size() == 1);
     CHECK(parts.segments[0].size() == 2160);
@@ -40,8 +40,7 @@ TEST_CASE("a quiet night is one segment", "[long_record][segments]") {
     CHECK(parts.refused.empty());
 }
 
-TEST_CASE("short gaps and knocks are bridged, long gaps divide the record",
-          "[long_record][segments]") {
+TEST_CASE("short gaps and knocks are bridged, long gaps divide the record") {
     LongRecord record = night();
     erase(record, 200, 215);
     erase(record, 1000, 1016);
@@ -56,7 +55,7 @@ TEST_CASE("short gaps and knocks are bridged, long gaps divide the record",
     CHECK_FALSE(parts.segments[1].is_restart);
 }
 
-TEST_CASE("a step of the acceleration divides the record at the step", "[long_record][segments]") {
+TEST_CASE("a step of the acceleration divides the record at the step") {
     LongRecord record = night();
     for (std::size_t i = 900; i < 2160; ++i) record.stretches[0].quantity[i] += 60.0;
     const RecordSegments parts = divide_record(record);
@@ -65,8 +64,7 @@ TEST_CASE("a step of the acceleration divides the record at the step", "[long_re
     CHECK_THAT(parts.segments[1].begins_with, StartsWith("step of ") && EndsWith(" mGal"));
 }
 
-TEST_CASE("a power cycle is recognised as a restart by the temperature change across the gap",
-          "[long_record][segments]") {
+TEST_CASE("a power cycle is recognised as a restart by the temperature change across the gap") {
     LongRecord record = night();
     erase(record, 1000, 1090);
     for (std::size_t i = 1000; i < 2160; ++i)
@@ -78,7 +76,7 @@ TEST_CASE("a power cycle is recognised as a restart by the temperature change ac
     CHECK_THAT(parts.segments[1].begins_with, EndsWith("a restart"));
 }
 
-TEST_CASE("values that no sensor sends are refused with the remedy", "[long_record][segments]") {
+TEST_CASE("values that no sensor sends are refused with the remedy") {
     LongRecord record = night();
     RecordStretch& stretch = record.stretches[0];
     stretch.axes_mgal.resize(3);
@@ -103,8 +101,8 @@ TEST_CASE("values that no sensor sends are refused with the remedy", "[long_reco
                                             ContainsSubstring("a351-correct retime --profile"));
 }
 
-TEST_CASE("a stuck temperature is refused with its value, and so is a remainder that is too short",
-          "[long_record][segments]") {
+TEST_CASE(
+    "a stuck temperature is refused with its value, and so is a remainder that is too short") {
     LongRecord record = night();
     for (std::size_t i = 1000; i < 2000; ++i) record.stretches[0].temperature_degc[i] = 42.5;
     const RecordSegments parts = divide_record(record);
@@ -116,8 +114,7 @@ TEST_CASE("a stuck temperature is refused with its value, and so is a remainder 
                StartsWith("too short: 0.89 h") && ContainsSubstring("end of the refused values"));
 }
 
-TEST_CASE("a coarse thermometer in a good oven is not stuck, but one that continues elsewhere is",
-          "[long_record][segments]") {
+TEST_CASE("a coarse thermometer in a good oven is not stuck, but one that continues elsewhere is") {
     LongRecord record = night();
     auto& temperature = record.stretches[0].temperature_degc;
     // An oven that moves by 0.02 degC in six hours, seen in steps of 0.01 degC.
@@ -140,8 +137,7 @@ TEST_CASE("a coarse thermometer in a good oven is not stuck, but one that contin
 
 TEST_CASE(
     "a record without samples, a dead sensor and a stuck acceleration give no segment, and "
-    "what is stuck is named",
-    "[long_record][segments]") {
+    "what is stuck is named") {
     LongRecord empty = night(), dead = night(), stuck = night();
     erase(empty, 0, 2160);
     CHECK(divide_record(empty).segments.empty());
@@ -157,8 +153,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("a stuck axis is refused, even if a changing tide was taken off the norm",
-          "[long_record][segments]") {
+TEST_CASE("a stuck axis is refused, even if a changing tide was taken off the norm") {
     LongRecord record = night();
     RecordStretch& stretch = record.stretches[0];
     stretch.axes_mgal.assign(3, stretch.quantity);

@@ -44,8 +44,7 @@ struct Count {
 
 }  // namespace
 
-TEST_CASE("the limits by spectrum and by modes cover the plant's response",
-          "[long_record][response]") {
+TEST_CASE("the limits by spectrum and by modes cover the plant's response") {
     Count by_spectrum, by_modes;
     int at_cycle = 0;
     constexpr int kSeeds = 10;
@@ -72,7 +71,7 @@ TEST_CASE("the limits by spectrum and by modes cover the plant's response",
     CHECK(by_modes.covered >= 0.85 * by_modes.claimed);
 }
 
-TEST_CASE("the thermometer's noise does not lower the gain", "[long_record][response]") {
+TEST_CASE("the thermometer's noise does not lower the gain") {
     // The acceleration follows exactly, so that the limits are as narrow as the noise allows.  At
     // 900 s the noise has a tenth of the power.
     int held = 0, claimed = 0;
@@ -102,8 +101,7 @@ TEST_CASE("the thermometer's noise does not lower the gain", "[long_record][resp
     CHECK(std::abs(sum / claimed - 1.0) < 0.01);
 }
 
-TEST_CASE("noise without a response is refused, and so are periods with too few cycles",
-          "[long_record][response]") {
+TEST_CASE("noise without a response is refused, and so are periods with too few cycles") {
     std::mt19937_64 random(1);
     std::normal_distribution<double> normal;
     std::vector<double> temperature, acceleration;
@@ -124,8 +122,7 @@ TEST_CASE("noise without a response is refused, and so are periods with too few 
     CHECK(silent >= 3);
 }
 
-TEST_CASE("an acceleration proportional to the temperature has finite limits, not NaN",
-          "[long_record][response]") {
+TEST_CASE("an acceleration proportional to the temperature has finite limits, not NaN") {
     const std::vector<double> temperature = simulated_segment("indoor", 1).temperature_degc;
     // The coherence is 1 except for rounding in either direction.
     for (const double factor : {-1.0, 1.1, 3.3, 7.7, 13.7, 1e3, 1.7e5}) {
@@ -140,7 +137,7 @@ TEST_CASE("an acceleration proportional to the temperature has finite limits, no
     }
 }
 
-TEST_CASE("a response that is not a finite number is refused", "[long_record][response]") {
+TEST_CASE("a response that is not a finite number is refused") {
     std::vector<double> temperature = simulated_segment("indoor", 1).temperature_degc;
     const std::vector<double> acceleration = temperature, still(temperature.size(), 0.0);
     const auto is_refused = [](const ResponsePoint& point) { return !point.refusal.empty(); };

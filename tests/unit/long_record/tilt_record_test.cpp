@@ -52,7 +52,7 @@ LongRecord tilted(double hours, double white, double walk, std::uint64_t seed,
 
 }  // namespace
 
-TEST_CASE("a tilt is the angle of the axis above the horizontal", "[tilt]") {
+TEST_CASE("a tilt is the angle of the axis above the horizontal") {
     for (const double angle : {-1.2, -1e-3, 0.0, 1e-6, 0.5})
         for (const double across : {0.0, 2.0}) {
             const double x = 979.8 * std::sin(angle), rest = 979.8 * std::cos(angle);
@@ -64,7 +64,7 @@ TEST_CASE("a tilt is the angle of the axis above the horizontal", "[tilt]") {
     CHECK_FALSE(archive_series::tilt_axis("BNZ").has_value());
 }
 
-TEST_CASE("a known history of tilts comes back, without the effect of the temperature", "[tilt]") {
+TEST_CASE("a known history of tilts comes back, without the effect of the temperature") {
     const LongRecord record = tilt_record(tilted(18.0, 0.3, 0.0, 1, history_urad), 0);
     const RecordSegments parts = divide_record(record);
     REQUIRE(parts.segments.size() == 2);
@@ -83,7 +83,7 @@ TEST_CASE("a known history of tilts comes back, without the effect of the temper
     }
 }
 
-TEST_CASE("limits of the effect of the temperature on the tilt contain it", "[tilt]") {
+TEST_CASE("limits of the effect of the temperature on the tilt contain it") {
     constexpr int kRecords = 100;
     int inside = 0;
     double squares = 0.0;
@@ -101,7 +101,7 @@ TEST_CASE("limits of the effect of the temperature on the tilt contain it", "[ti
     CHECK(inside >= 90);
 }
 
-TEST_CASE("a tilt needs axes, and one that is horizontal", "[tilt]") {
+TEST_CASE("a tilt needs axes, and one that is horizontal") {
     const LongRecord record = tilted(4.0, 0.3, 0.0, 1, history_urad);
     LongRecord on_its_side = record;
     std::swap(on_its_side.stretches[0].axes_mgal[0], on_its_side.stretches[0].axes_mgal[2]);
@@ -112,7 +112,7 @@ TEST_CASE("a tilt needs axes, and one that is horizontal", "[tilt]") {
     CHECK_THROWS_AS(tilt_record(norm, 0), InputError);
 }
 
-TEST_CASE("an axis that is not horizontal has no tilt", "[tilt]") {
+TEST_CASE("an axis that is not horizontal has no tilt") {
     const auto require = [](std::vector<double> tilts_urad) {
         archive_series::require_horizontal(std::move(tilts_urad), 1, "--channel");
     };

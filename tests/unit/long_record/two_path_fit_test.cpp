@@ -24,7 +24,7 @@ std::string words(const TwoPathFit& fit, const sim::TwoPathTruth& truth, TwoPath
 
 }  // namespace
 
-TEST_CASE("95 % limits of a night's fit contain the true parameters", "[long_record][two_paths]") {
+TEST_CASE("95 % limits of a night's fit contain the true parameters") {
     constexpr int kSeeds = 20;
     const sim::scenario::Scenario scenario = of_drawn_units("indoor");
     int fast_determined = 0, static_held = 0, adequate = 0;
@@ -58,8 +58,7 @@ TEST_CASE("95 % limits of a night's fit contain the true parameters", "[long_rec
     }
 }
 
-TEST_CASE("a week has smaller errors than a night and determines the static slope",
-          "[long_record][two_paths]") {
+TEST_CASE("a week has smaller errors than a night and determines the static slope") {
     const sim::scenario::Scenario scenario = of_drawn_units("week");
     const TwoPathFit night = fitted(of_drawn_units("indoor"), 1), week = fitted(scenario, 1);
     const sim::TwoPathTruth truth = sim::two_path_truth(scenario, 1);
@@ -75,8 +74,7 @@ TEST_CASE("a week has smaller errors than a night and determines the static slop
     CHECK(week[TwoPathTerm::fast].standard_error < 0.6 * night[TwoPathTerm::fast].standard_error);
 }
 
-TEST_CASE("slopes and lag of an outer oven are found, and are missing without one",
-          "[long_record][two_paths]") {
+TEST_CASE("slopes and lag of an outer oven are found, and are missing without one") {
     const RecordSegment segment = simulated_segment(of_drawn_units("indoor"), 7);
     std::vector<double> outer, reading = segment.quantity;
     for (std::size_t i = 0; i < segment.size(); ++i) {
@@ -104,8 +102,7 @@ TEST_CASE("slopes and lag of an outer oven are found, and are missing without on
     CHECK(unseen.parameters.size() == kTwoPathTerms);
 }
 
-TEST_CASE("the thermometer's noise gives no information on the static slope",
-          "[long_record][two_paths]") {
+TEST_CASE("the thermometer's noise gives no information on the static slope") {
     // The same night without that noise must leave the slope as uncertain: a trend that leaks into
     // the frequencies of the noise must not get the weight of those frequencies.
     sim::scenario::Scenario quiet = of_drawn_units("indoor");
@@ -116,8 +113,7 @@ TEST_CASE("the thermometer's noise gives no information on the static slope",
     CHECK(noisy.static_slope_error > 0.9 * fit.static_slope_error);
 }
 
-TEST_CASE("true fluctuations at 85 s are not taken for the thermometer's noise",
-          "[long_record][two_paths]") {
+TEST_CASE("true fluctuations at 85 s are not taken for the thermometer's noise") {
     const unit::ThermalEffect unit{-12.0, -20.0, 11.3};
     int held = 0;
     constexpr int kRecords = 20;
@@ -145,8 +141,7 @@ TEST_CASE("true fluctuations at 85 s are not taken for the thermometer's noise",
     CHECK(held >= 17);
 }
 
-TEST_CASE("a thermometer that shows its noise alone determines no path",
-          "[long_record][two_paths]") {
+TEST_CASE("a thermometer that shows its noise alone determines no path") {
     std::mt19937_64 random(1);
     std::normal_distribution<double> normal;
     for (int record = 0; record < 20; ++record) {
@@ -164,8 +159,7 @@ TEST_CASE("a thermometer that shows its noise alone determines no path",
     }
 }
 
-TEST_CASE("a response that the model does not contain is found in the residual",
-          "[long_record][two_paths]") {
+TEST_CASE("a response that the model does not contain is found in the residual") {
     RecordSegment segment = simulated_segment("indoor", 1);
     // A delay of 700 s, which no first-order lag can give at 900 s.
     for (std::size_t i = segment.size() - 1; i >= 35; --i)

@@ -33,7 +33,7 @@ SurveyCorrection fit_admittance(const std::vector<SurveyRow>& rows, double readi
 
 }  // namespace
 
-TEST_CASE("a network finds a known admittance of the air pressure", "[survey][network]") {
+TEST_CASE("a network finds a known admittance of the air pressure") {
     const SurveyCorrection result = fit_admittance(day_with_pressure(-0.0004), 0.001);
     CHECK(coefficient(result, "admittance_mgal_per_hpa").value ==
           Approx(-0.0004).epsilon(0).margin(1e-9));
@@ -45,8 +45,7 @@ TEST_CASE("a network finds a known admittance of the air pressure", "[survey][ne
     }
 }
 
-TEST_CASE("an admittance that the readings cannot distinguish from gravity is named",
-          "[survey][network]") {
+TEST_CASE("an admittance that the readings cannot distinguish from gravity is named") {
     auto rows = day_with_pressure(-0.0003);
     const std::string usual = remark(fit_admittance(rows, 0.01), "admittance");
     for (SurveyRow& row : rows) {
@@ -62,7 +61,7 @@ TEST_CASE("an admittance that the readings cannot distinguish from gravity is na
     CHECK_THAT(precise, !ContainsSubstring("cannot be distinguished"));
 }
 
-TEST_CASE("only the network fits an admittance", "[survey][network]") {
+TEST_CASE("only the network fits an admittance") {
     SurveyOptions options = by_model("t-drift");
     options.network.fits_admittance = true;
     CHECK_THROWS_WITH(correct_survey(day_with_pressure(0.0), options),

@@ -8,8 +8,7 @@
 using namespace a351;
 using namespace a351::corrector::model;
 
-TEST_CASE("the interval of many equal stations agrees with the error of a mean of squares",
-          "[survey][bootstrap]") {
+TEST_CASE("the interval of many equal stations agrees with the error of a mean of squares") {
     // Squares 0 and 4 on 400 stations, in halves: their mean is 2 +- 2 / sqrt(400) = 0.1, so the
     // root is 1.414 +- 1.96 x 0.1 / (2 x 1.414).
     std::vector<double> errors;
@@ -32,8 +31,7 @@ TEST_CASE("the interval of many equal stations agrees with the error of a mean o
     CHECK(wide.high == Approx(1.414 + 2 * 0.0693).margin(0.02));
 }
 
-TEST_CASE("the same seed gives the same interval, another seed gives another one",
-          "[survey][bootstrap]") {
+TEST_CASE("the same seed gives the same interval, another seed gives another one") {
     std::vector<double> errors;
     std::vector<std::string> stations;
     for (int i = 0; i < 20; ++i) {

@@ -61,8 +61,7 @@ bool has_remark(const SurveyCorrection& result, const std::string& part) {
 
 }  // namespace
 
-TEST_CASE("a thermal response is used with twice its errors, axis biases with their own errors",
-          "[survey][calibration]") {
+TEST_CASE("a thermal response is used with twice its errors, axis biases with their own errors") {
     Calibration known = calibration();
     known.thermal = thermal(kScattered);
     const DayPriors priors = day_priors_of(known);
@@ -78,8 +77,7 @@ TEST_CASE("a thermal response is used with twice its errors, axis biases with th
     CHECK(variance(DayTerm::drift) == Approx(1.0));
 }
 
-TEST_CASE("a day agrees with the calibration of its unit and contradicts that of another unit",
-          "[survey][calibration]") {
+TEST_CASE("a day agrees with the calibration of its unit and contradicts that of another unit") {
     const DayRecord day = kScattered.record();
     const auto rows = tilted_rows_of(day);
     Calibration known = calibration();
@@ -114,8 +112,7 @@ TEST_CASE("a day agrees with the calibration of its unit and contradicts that of
     CHECK(has_remark(other, "contradict the calibration's thermal response"));
 }
 
-TEST_CASE("a wrong calibration is contradicted however small its stated errors are",
-          "[survey][calibration]") {
+TEST_CASE("a wrong calibration is contradicted however small its stated errors are") {
     const DayRecord day = kScattered.record();
     const auto rows = tilted_rows_of(day);
     for (const double variance : {221.0, 110.0, 1.0, 0.01}) {
@@ -130,8 +127,7 @@ TEST_CASE("a wrong calibration is contradicted however small its stated errors a
     }
 }
 
-TEST_CASE("a calibration is not tested if the day has no information about it",
-          "[survey][calibration]") {
+TEST_CASE("a calibration is not tested if the day has no information about it") {
     DayRecord day = kScattered.record();
     for (DayBin& bin : day.bins) bin.x = StandardGravity(0.0);
     Calibration known = calibration();
@@ -144,8 +140,7 @@ TEST_CASE("a calibration is not tested if the day has no information about it",
     CHECK_FALSE(has_remark(result, "thermal response not tested"));
 }
 
-TEST_CASE("with a calibration one datum is enough for the whole-day model",
-          "[survey][calibration]") {
+TEST_CASE("with a calibration one datum is enough for the whole-day model") {
     const DayRecord day = kScattered.record();
     auto rows = tilted_rows_of(day);
     know_only(rows, {"S0"});
@@ -156,7 +151,7 @@ TEST_CASE("with a calibration one datum is enough for the whole-day model",
     }
 }
 
-TEST_CASE("other models use readings that are corrected for tilt", "[survey][calibration]") {
+TEST_CASE("other models use readings that are corrected for tilt") {
     const auto rows = tilted_rows_of(kScattered.record());
     const auto result = correct_with_calibration(rows, with(calibration(), "t"), nullptr);
     CHECK(result.score.rms_mgal.value() < 1e-6);
@@ -176,8 +171,7 @@ TEST_CASE("other models use readings that are corrected for tilt", "[survey][cal
     CHECK(calibration_json(correct_survey(rows, by_model("t"))).is_null());
 }
 
-TEST_CASE("a row without the mean of an axis is refused if a bias must be subtracted",
-          "[survey][calibration]") {
+TEST_CASE("a row without the mean of an axis is refused if a bias must be subtracted") {
     auto rows = tilted_rows_of(kScattered.record());
     rows[3].record.reset();
     CHECK_THROWS_WITH(correct_with_calibration(rows, with(calibration(), "t"), nullptr),
@@ -188,7 +182,7 @@ TEST_CASE("a row without the mean of an axis is refused if a bias must be subtra
     CHECK_NOTHROW(correct_with_calibration(rows, with(known, "t"), nullptr));
 }
 
-TEST_CASE("models.csv shows how each score uses the calibration", "[survey][calibration]") {
+TEST_CASE("models.csv shows how each score uses the calibration") {
     const DayRecord day = kScattered.record();
     const auto rows = tilted_rows_of(day);
     const auto uses = [&](const SurveyCorrection& result) {
@@ -210,8 +204,7 @@ TEST_CASE("models.csv shows how each score uses the calibration", "[survey][cali
     CHECK(has_remark(fixed, "the scores of all models too"));
 }
 
-TEST_CASE("fitted and calibrated axis biases together give one tilt correction",
-          "[survey][calibration]") {
+TEST_CASE("fitted and calibrated axis biases together give one tilt correction") {
     auto rows = tilted_rows_of(kScattered.record());
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const double y_g = 0.001 * static_cast<double>(i * i % 5);

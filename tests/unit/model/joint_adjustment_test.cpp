@@ -41,8 +41,7 @@ Corrected a_day_later(Corrected one) {
 
 }  // namespace
 
-TEST_CASE("two units at one time are one box, and each station has one gravity",
-          "[survey][joint]") {
+TEST_CASE("two units at one time are one box, and each station has one gravity") {
     const Corrected a = corrected(1), b = corrected(2);
     const auto adjustment = std::get<JointAdjustment>(
         adjust_jointly({{"a", "1", &a.result, &a.day}, {"b", "2", &b.result, &b.day}}));
@@ -61,7 +60,7 @@ TEST_CASE("two units at one time are one box, and each station has one gravity",
               Approx(adjustment.stations[static_cast<std::size_t>(k)].u.value()));
 }
 
-TEST_CASE("without a serial number each day is a unit of its own", "[survey][joint]") {
+TEST_CASE("without a serial number each day is a unit of its own") {
     const Corrected a = corrected(1), b = a_day_later(corrected(2));
     const auto units = [&](const std::string& serial) {
         const auto joint =
@@ -72,7 +71,7 @@ TEST_CASE("without a serial number each day is a unit of its own", "[survey][joi
     CHECK(units("") == 2);
 }
 
-TEST_CASE("a day of another model takes part with white noise", "[survey][joint]") {
+TEST_CASE("a day of another model takes part with white noise") {
     const Corrected day = corrected(1);
     for (const std::string model : {"t-drift", "network"}) {
         const Corrected other = a_day_later(corrected(2, model));
@@ -97,7 +96,7 @@ TEST_CASE("a day of another model takes part with white noise", "[survey][joint]
     }
 }
 
-TEST_CASE("days of other models alone are adjusted together", "[survey][joint]") {
+TEST_CASE("days of other models alone are adjusted together") {
     const Corrected a = corrected(1, "t-drift"), b = a_day_later(corrected(2, "network"));
     const auto adjustment =
         std::get<JointAdjustment>(adjust_jointly({{"a", "1", &a.result}, {"b", "2", &b.result}}));
@@ -109,7 +108,7 @@ TEST_CASE("days of other models alone are adjusted together", "[survey][joint]")
     }
 }
 
-TEST_CASE("a day whose readings hardly determine its noise does not take part", "[survey][joint]") {
+TEST_CASE("a day whose readings hardly determine its noise does not take part") {
     const Corrected day = corrected(1);
     Corrected few = a_day_later(corrected(2, "t-drift"));
     const auto reason_with = [&](std::size_t rows) {
@@ -143,8 +142,7 @@ TEST_CASE("a day whose readings hardly determine its noise does not take part", 
           Approx(adjustment::kLeastSd_mgal));
 }
 
-TEST_CASE("surveys that cannot be adjusted together are refused with the reason",
-          "[survey][joint]") {
+TEST_CASE("surveys that cannot be adjusted together are refused with the reason") {
     const Corrected a = corrected(1), paper = corrected(2, "paper"),
                     moved = corrected(2, "day", 3.0),
                     network = a_day_later(corrected(2, "network"));

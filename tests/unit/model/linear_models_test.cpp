@@ -46,8 +46,7 @@ std::vector<reading::SurveyRow> tilted_day() {
 
 }  // namespace
 
-TEST_CASE("a day made of temperature, rate and drift is explained by that model only",
-          "[survey][linear_models]") {
+TEST_CASE("a day made of temperature, rate and drift is explained by that model only") {
     const Survey day(made_up::day());
     for (const LinearModel& model : compared_models()) {
         CAPTURE(model.name);
@@ -64,9 +63,8 @@ TEST_CASE("a day made of temperature, rate and drift is explained by that model 
 }
 
 TEST_CASE(
-    "leaving out stations gives larger errors than leaving out rows, which gives larger ones than "
-    "the fit",
-    "[survey][linear_models]") {
+    "leaving out stations gives larger errors than leaving out rows, which gives larger ones "
+    "than the fit") {
     auto rows = made_up::day();
     for (reading::SurveyRow& row : rows)  // an error of the station, the same each time
         add(row, row.site == "S2" ? 5.0 : 0.0);
@@ -76,7 +74,7 @@ TEST_CASE(
     CHECK(score.loo_mgal.value() < score.loso_mgal.value());
 }
 
-TEST_CASE("scores that too few rows cannot define are absent", "[survey][linear_models]") {
+TEST_CASE("scores that too few rows cannot define are absent") {
     auto rows = made_up::day();
     rows.resize(3);
     const model::Score line = Survey(rows).score("t");
@@ -88,16 +86,14 @@ TEST_CASE("scores that too few rows cannot define are absent", "[survey][linear_
     CHECK_FALSE(full.loso_mgal.has_value());
 }
 
-TEST_CASE("rate and drift together are not chosen for few rows with few readings of the base",
-          "[survey][linear_models]") {
+TEST_CASE("rate and drift together are not chosen for few rows with few readings of the base") {
     auto rows = made_up::day();
     rows.erase(rows.begin() + 4);  // eleven rows, the base twice
     const Survey day(rows);
     CHECK(choose_model(day.problem(), day.in_use).value().model != "t-rate-drift");
 }
 
-TEST_CASE("the weight of a prior is its standard deviation relative to that of a reading",
-          "[survey][linear_models]") {
+TEST_CASE("the weight of a prior is its standard deviation relative to that of a reading") {
     const auto rate = [&](double sd, double reading_sd_mgal) {
         Survey day(made_up::day());
         day.options.priors.reading_sd_mgal = reading_sd_mgal;
@@ -110,8 +106,7 @@ TEST_CASE("the weight of a prior is its standard deviation relative to that of a
     CHECK(rate(6.0, 4.0) > 0.1);
 }
 
-TEST_CASE("the fit finds the biases of the horizontal axes with temperature, rate and drift",
-          "[survey][axes_model]") {
+TEST_CASE("the fit finds the biases of the horizontal axes with temperature, rate and drift") {
     const auto result = correct_survey(tilted_day(), by_model("t-rate-drift-axes"));
     const std::vector<std::pair<std::string, double>> expected{
         {"constant_mgal", made_up::kConstant_mgal},
@@ -139,8 +134,7 @@ TEST_CASE("the fit finds the biases of the horizontal axes with temperature, rat
     }
 }
 
-TEST_CASE("a model with axes is not chosen automatically, and is refused without their means",
-          "[survey][axes_model]") {
+TEST_CASE("a model with axes is not chosen automatically, and is refused without their means") {
     const auto by_itself = correct_survey(tilted_day(), {});
     CHECK(by_itself.model != "t-rate-drift-axes");
     CHECK(by_itself.row_sets[0].scores.size() == 5);  // paper and the four linear models

@@ -31,7 +31,7 @@ SurveyOptions options_for(const std::vector<SurveyRow>& rows) {
 
 }  // namespace
 
-TEST_CASE("every model has a name of its own, by which it is found", "[survey][model]") {
+TEST_CASE("every model has a name of its own, by which it is found") {
     std::set<std::string_view> names{kAutomatic};
     for (const Model& model : models()) {
         CHECK(names.insert(model.name).second);
@@ -42,8 +42,7 @@ TEST_CASE("every model has a name of its own, by which it is found", "[survey][m
     CHECK(find_model(kAutomatic) == nullptr);
 }
 
-TEST_CASE("every model of averages gives rows whose corrections add up to the corrected value",
-          "[survey][model]") {
+TEST_CASE("every model of averages gives rows whose corrections add up to the corrected value") {
     auto rows = made_up::day();
     add(rows[2], 1.5);
     const SurveyOptions options = options_for(rows);
@@ -63,7 +62,7 @@ TEST_CASE("every model of averages gives rows whose corrections add up to the co
     }
 }
 
-TEST_CASE("a linear model corrects for its own terms only", "[survey][model]") {
+TEST_CASE("a linear model corrects for its own terms only") {
     const auto rows = made_up::day();
     const SurveyOptions options = options_for(rows);
     const SurveyProblem problem{rows, options, nullptr};
@@ -86,8 +85,7 @@ TEST_CASE("a linear model corrects for its own terms only", "[survey][model]") {
     }
 }
 
-TEST_CASE("every model refuses a survey without a reference, and says what would help",
-          "[survey][model]") {
+TEST_CASE("every model refuses a survey without a reference, and says what would help") {
     auto rows = made_up::day();
     for (SurveyRow& row : rows) row.reference.reset();
     const SurveyOptions options = options_for(rows);
@@ -105,7 +103,7 @@ TEST_CASE("every model refuses a survey without a reference, and says what would
     }
 }
 
-TEST_CASE("the whole-day model refuses priors that it would ignore", "[survey][model]") {
+TEST_CASE("the whole-day model refuses priors that it would ignore") {
     const auto rows = made_up::day();
     SurveyOptions options = options_for(rows);
     set_prior(options.priors, "test", "time_mgal_per_h", {0.0, 0.1});
@@ -119,7 +117,7 @@ TEST_CASE("the whole-day model refuses priors that it would ignore", "[survey][m
     CHECK_THAT(std::get<Refusal>(fit).trouble, ContainsSubstring("`prior` would be ignored"));
 }
 
-TEST_CASE("the publication's Error (1) is given only with a reference", "[survey][model]") {
+TEST_CASE("the publication's Error (1) is given only with a reference") {
     auto rows = made_up::day();
     rows[4].reference.reset();
     const SurveyOptions options = options_for(rows);
@@ -132,8 +130,7 @@ TEST_CASE("the publication's Error (1) is given only with a reference", "[survey
           Approx((known.corrected1 - *rows[3].reference).value()).margin(1e-9));
 }
 
-TEST_CASE("a model without a scale says that it does not use the prior of the scale",
-          "[survey][model]") {
+TEST_CASE("a model without a scale says that it does not use the prior of the scale") {
     const auto rows = made_up::day();
     SurveyOptions options = options_for(rows);
     set_prior(options.priors, "test", "scale", {1.0, 0.002});
@@ -144,8 +141,7 @@ TEST_CASE("a model without a scale says that it does not use the prior of the sc
     }
 }
 
-TEST_CASE("a linear model with a prior of the scale finds a station whose gravity is far away",
-          "[survey][model][scale]") {
+TEST_CASE("a linear model with a prior of the scale finds a station whose gravity is far away") {
     constexpr double kScaleError = 0.01, kFar_mgal = 500.0, kPriorSd = 0.001;
     auto rows = made_up::day();
     SurveyRow& far = rows[8];  // S7, once

@@ -62,7 +62,7 @@ NetworkOptions quadratic() { return {.drift_degree = 2}; }
 
 }  // namespace
 
-TEST_CASE("a network finds a known quadratic drift and the unknown stations", "[survey][network]") {
+TEST_CASE("a network finds a known quadratic drift and the unknown stations") {
     const auto network = adjust(made_up::day_of_network(0.08), quadratic()).adjustment.value();
     // Full values are rounded to 1.2e-10 mGal.
     const auto exactly = [](double value) { return Approx(value).epsilon(0).margin(1e-9); };
@@ -76,7 +76,7 @@ TEST_CASE("a network finds a known quadratic drift and the unknown stations", "[
     }
 }
 
-TEST_CASE("a network finds a known cubic drift", "[survey][network]") {
+TEST_CASE("a network finds a known cubic drift") {
     auto rows = made_up::day_of_network(0.08);
     for (SurveyRow& row : rows) add(row, -0.02 * std::pow(hours(row) - 5.0, 3));
     const auto network = adjust(rows, {.drift_degree = 3}).adjustment.value();
@@ -84,8 +84,7 @@ TEST_CASE("a network finds a known cubic drift", "[survey][network]") {
     CHECK(value_of(network, "time2_mgal_per_h2") == Approx(0.08).epsilon(0).margin(1e-8));
 }
 
-TEST_CASE("each instrument and each loop of the table has its own constant and drift",
-          "[survey][network]") {
+TEST_CASE("each instrument and each loop of the table has its own constant and drift") {
     // The same day by two instruments that differ in constant and drift; the second one is set to
     // another constant in its middle.
     auto rows = made_up::day_of_network();
@@ -125,8 +124,7 @@ TEST_CASE("each instrument and each loop of the table has its own constant and d
     CHECK_THROWS_AS(correct_survey(rows, by_model("drift")), InputError);
 }
 
-TEST_CASE("a network finds the scale of each instrument, and the unknown stations with it",
-          "[survey][network]") {
+TEST_CASE("a network finds the scale of each instrument, and the unknown stations with it") {
     auto rows = made_up::day_of_network();
     for (SurveyRow& row : rows) {
         row.has_temperature = false, row.temperature = {};
@@ -158,7 +156,7 @@ TEST_CASE("a network finds the scale of each instrument, and the unknown station
         CHECK(network.gravity_mgal[k] ==
               Approx(979800.0 + 30.0 * (network.stations[k].back() % 8)).epsilon(0).margin(1e-4));
 }
-TEST_CASE("a known scale leaves no error of linearisation", "[survey][network]") {
+TEST_CASE("a known scale leaves no error of linearisation") {
     auto rows = made_up::day_of_network();
     for (SurveyRow& row : rows) {
         const MilliGal above(gravity_mgal(row.site) - 979800.0);
@@ -171,7 +169,7 @@ TEST_CASE("a known scale leaves no error of linearisation", "[survey][network]")
         CHECK(network.gravity_mgal[k] ==
               Approx(gravity_mgal(network.stations[k])).epsilon(0).margin(1e-8));
 }
-TEST_CASE("a scale that does not settle is refused", "[survey][network]") {
+TEST_CASE("a scale that does not settle is refused") {
     auto rows = made_up::day_of_network();
     // References 0.1 mGal apart whose readings differ by -300 mGal: no scale near 1 explains them.
     for (SurveyRow& row : rows)
@@ -188,16 +186,14 @@ TEST_CASE("a scale that does not settle is refused", "[survey][network]") {
     set_prior(priors, "test", "scale", {1.0, 1e-4});
     CHECK(adjust(rows, options, priors).adjustment.has_value());
 }
-TEST_CASE("the scatter of an average widens the standard deviation of its reading",
-          "[survey][network]") {
+TEST_CASE("the scatter of an average widens the standard deviation of its reading") {
     auto rows = made_up::day_of_network();
     rows[3].u_average = MilliGal(1.5);
     const auto network = adjust(rows).adjustment.value();
     CHECK(network.rows[3].sd == Approx(2.5));  // 2 mGal of each reading
     CHECK(network.rows[4].sd == 2.0);
 }
-TEST_CASE("redundancies of readings, datum and priors add up to the degrees of freedom",
-          "[survey][network]") {
+TEST_CASE("redundancies of readings, datum and priors add up to the degrees of freedom") {
     adjustment::Priors priors;
     set_prior(priors, "test", "time_mgal_per_h", {0.0, 1.0});
     const auto network = adjust(made_up::day_of_network(), {}, priors).adjustment.value();
@@ -208,7 +204,7 @@ TEST_CASE("redundancies of readings, datum and priors add up to the degrees of f
     CHECK(sum == Approx(static_cast<double>(network.dof)));
 }
 
-TEST_CASE("readings of stations occupied once are reported as uncontrolled", "[survey][network]") {
+TEST_CASE("readings of stations occupied once are reported as uncontrolled") {
     const auto network = adjust(made_up::day_of_network()).adjustment.value();
     REQUIRE(network.remarks.size() == 1);
     CHECK_THAT(network.remarks.front(),
@@ -216,8 +212,7 @@ TEST_CASE("readings of stations occupied once are reported as uncontrolled", "[s
                    !ContainsSubstring("B (2)") && !ContainsSubstring("S2"));
 }
 
-TEST_CASE("the global test fails on a blunder, and readings better than stated are no failure",
-          "[survey][network]") {
+TEST_CASE("the global test fails on a blunder, and readings better than stated are no failure") {
     auto rows = made_up::day_of_network();
     const double alternating[] = {1, -1, 1, 1, -1, -1, 1, -1, 1, 1, -1, 1};
     for (std::size_t i = 0; i < rows.size(); ++i) add(rows[i], 2.0 * alternating[i]);
@@ -236,13 +231,13 @@ TEST_CASE("the global test fails on a blunder, and readings better than stated a
     CHECK_FALSE(adjust(rows).adjustment->passes_global_test().value());
 }
 
-TEST_CASE("a network without a datum is refused with the reason", "[survey][network]") {
+TEST_CASE("a network without a datum is refused with the reason") {
     auto rows = made_up::day_of_network();
     for (SurveyRow& row : rows) row.reference.reset();
     CHECK_THAT(message_of(adjust(rows)), StartsWith("no datum") && ContainsSubstring("B, S1"));
 }
 
-TEST_CASE("a datum station without reference gravity is refused by name", "[survey][network]") {
+TEST_CASE("a datum station without reference gravity is refused by name") {
     const auto rows = made_up::day_of_network();
     const std::vector<bool> in_use(rows.size(), true);
     CHECK_THAT(message_of(outcome_of(adjust_network(rows, in_use, {.datum = {"B", "S2"}}))),
@@ -250,7 +245,7 @@ TEST_CASE("a datum station without reference gravity is refused by name", "[surv
     CHECK(adjust_network(rows, in_use, {.datum = {"B"}}).adjusted.has_value());
 }
 
-TEST_CASE("two groups of stations without a connection are refused by name", "[survey][network]") {
+TEST_CASE("two groups of stations without a connection are refused by name") {
     auto rows = made_up::day_of_network();
     auto next_day = rows;
     for (SurveyRow& row : next_day) {
@@ -271,8 +266,7 @@ TEST_CASE("two groups of stations without a connection are refused by name", "[s
     }
 }
 
-TEST_CASE("groups of one day that only constant and drift connect are reported",
-          "[survey][network]") {
+TEST_CASE("groups of one day that only constant and drift connect are reported") {
     auto rows = made_up::day_of_network();
     const std::vector<std::string> sites{"B",  "S1", "B",  "S1", "B",  "S1",
                                          "S5", "S6", "S5", "S6", "S7", "S5"};
@@ -285,8 +279,7 @@ TEST_CASE("groups of one day that only constant and drift connect are reported",
                StartsWith("connected with a datum only") && ContainsSubstring(": S5, S6, S7"));
 }
 
-TEST_CASE("drift with one occupation of every station is refused with the reason",
-          "[survey][network]") {
+TEST_CASE("drift with one occupation of every station is refused with the reason") {
     auto rows = made_up::day_of_network();
     rows.erase(rows.begin() + 9, rows.end());
     rows.erase(rows.begin() + 4);
@@ -305,7 +298,7 @@ TEST_CASE("drift with one occupation of every station is refused with the reason
     }
 }
 
-TEST_CASE("a constant temperature is left out of the model with a remark", "[survey][network]") {
+TEST_CASE("a constant temperature is left out of the model with a remark") {
     auto rows = made_up::day_of_network();
     for (SurveyRow& row : rows) {
         add(row, 30.0 * (row.temperature.value() - 42.6));
@@ -316,8 +309,7 @@ TEST_CASE("a constant temperature is left out of the model with a remark", "[sur
     CHECK(network.gravity_mgal[1] == Approx(gravity_mgal("S1")).epsilon(0).margin(1e-6));
 }
 
-TEST_CASE("the network model of a survey gives unknown stations values with uncertainty",
-          "[survey][network]") {
+TEST_CASE("the network model of a survey gives unknown stations values with uncertainty") {
     auto rows = made_up::day_of_network();
     rows[5].is_flagged = true;
     add(rows[1], 1.0);
@@ -350,8 +342,7 @@ TEST_CASE("the network model of a survey gives unknown stations values with unce
     CHECK_THROWS_WITH(correct_survey(rows, options), StartsWith("model = network: no datum"));
 }
 
-TEST_CASE("leave-one-station-out of a network is the error found by hiding a datum's reference",
-          "[survey][network]") {
+TEST_CASE("leave-one-station-out of a network is the error found by hiding a datum's reference") {
     auto rows = made_up::day();
     know_only(rows, {"B", "S2", "S6"});
     for (std::size_t i = 0; i < rows.size(); i += 3) add(rows[i], 1.5);
@@ -373,8 +364,7 @@ TEST_CASE("leave-one-station-out of a network is the error found by hiding a dat
           Approx(std::sqrt(squares / 3.0)).epsilon(is_scale_known ? 1e-5 : 2e-4));
 }
 
-TEST_CASE("a loop that is left out does not change the station of a flagged reading",
-          "[survey][network]") {
+TEST_CASE("a loop that is left out does not change the station of a flagged reading") {
     auto rows = made_up::day();
     rows.back().site = "F";
     rows.back().is_flagged = true;
@@ -394,8 +384,7 @@ TEST_CASE("a loop that is left out does not change the station of a flagged read
     CHECK(result.stations.back().u_gravity->value() == Approx(alone.u_gravity->value()));
 }
 
-TEST_CASE("a loop without a usable reading is left out by name, and the rest is computed",
-          "[survey][network]") {
+TEST_CASE("a loop without a usable reading is left out by name, and the rest is computed") {
     auto rows = made_up::day_of_network();
     const auto first_day = rows;
     for (const int day : {1, 2}) {

@@ -19,8 +19,7 @@ std::vector<double> corrected1(const std::vector<SurveyRow>& rows) {
 
 }  // namespace
 
-TEST_CASE("after the drift step the first and last base readings equal the reference",
-          "[survey][paper]") {
+TEST_CASE("after the drift step the first and last base readings equal the reference") {
     const auto rows = made_up::day();
     const auto first = corrected1(rows);
     const auto step = find_end_point_drift(rows, kAll, first, "B");
@@ -29,23 +28,21 @@ TEST_CASE("after the drift step the first and last base readings equal the refer
     CHECK(std::abs(errors.back()) < 1e-9);
 }
 
-TEST_CASE("errors of the temperature line average to zero over the rows of the fit",
-          "[survey][paper]") {
+TEST_CASE("errors of the temperature line average to zero over the rows of the fit") {
     const auto rows = made_up::day();
     double sum = 0.0;
     for (const double error : errors_mgal(rows, corrected1(rows))) sum += error;
     CHECK(std::abs(sum) < 1e-7);
 }
 
-TEST_CASE("the drift step is refused with one occupation of the base", "[survey][paper]") {
+TEST_CASE("the drift step is refused with one occupation of the base") {
     const auto rows = made_up::day();
     const auto step = find_end_point_drift(rows, kAll, corrected1(rows), "S1");
     CHECK_FALSE(step.drift.has_value());
     CHECK(step.refusal == "base S1 has fewer than two occupations, two are needed");
 }
 
-TEST_CASE("two set-ups of one stay do not count as two occupations of the base",
-          "[survey][paper]") {
+TEST_CASE("two set-ups of one stay do not count as two occupations of the base") {
     auto rows = made_up::day();
     for (SurveyRow& row : rows) {
         if (row.site == "S2") row.occupation = 1;
@@ -53,8 +50,7 @@ TEST_CASE("two set-ups of one stay do not count as two occupations of the base",
     CHECK_FALSE(find_end_point_drift(rows, kAll, corrected1(rows), "S2").drift.has_value());
 }
 
-TEST_CASE("the drift step is refused if the first and last base readings are flagged",
-          "[survey][paper]") {
+TEST_CASE("the drift step is refused if the first and last base readings are flagged") {
     const auto rows = made_up::day();
     auto in_use = kAll;
     in_use.front() = false;
@@ -65,7 +61,7 @@ TEST_CASE("the drift step is refused if the first and last base readings are fla
     CHECK(step.refusal == "base B is not in use in its first and last occupation");
 }
 
-TEST_CASE("a station without a reference is corrected and has no error", "[survey][paper]") {
+TEST_CASE("a station without a reference is corrected and has no error") {
     auto rows = made_up::day();
     const auto known = corrected1(rows);
     auto in_use = kAll;

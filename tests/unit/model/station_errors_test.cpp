@@ -34,8 +34,7 @@ const StationDifference& difference_of(const SurveyCorrection& result, const std
 
 }  // namespace
 
-TEST_CASE("a linear model gives the differences that it gives without both references",
-          "[survey][stations]") {
+TEST_CASE("a linear model gives the differences that it gives without both references") {
     auto rows = noisy_day(3);
     const SurveyCorrection all = corrected(rows, "t-drift");
     CHECK(all.differences.size() == 8 * 7 / 2);
@@ -60,7 +59,7 @@ TEST_CASE("a linear model gives the differences that it gives without both refer
     CHECK(stations[1].coverage_factor.value() == Approx(2.365).epsilon(1e-3));  // t of 7 degrees
 }
 
-TEST_CASE("values without the own reference have the error that is stated", "[survey][stations]") {
+TEST_CASE("values without the own reference have the error that is stated") {
     const std::string model = GENERATE("t-rate-drift", "network");
     CAPTURE(model);
     double of_stations = 0.0, of_differences = 0.0;
@@ -88,7 +87,7 @@ TEST_CASE("values without the own reference have the error that is stated", "[su
     }
 }
 
-TEST_CASE("a network holds each reference with its own uncertainty", "[survey][network]") {
+TEST_CASE("a network holds each reference with its own uncertainty") {
     auto rows = noisy_day(5);
     for (SurveyRow& row : rows)
         if (row.site == "S3") {

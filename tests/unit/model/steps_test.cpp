@@ -28,7 +28,7 @@ double largest_residual_mgal(const SurveyCorrection& result) {
 
 }  // namespace
 
-TEST_CASE("linear models and the network estimate a step of the readings", "[model][step]") {
+TEST_CASE("linear models and the network estimate a step of the readings") {
     std::vector<reading::SurveyRow> rows = made_up::day();
     for (std::size_t i = 5; i < rows.size(); ++i) add(rows[i], kStep_mgal);
     const UtcTime step = rows[4].time + (rows[5].time - rows[4].time) / 2;
@@ -41,7 +41,7 @@ TEST_CASE("linear models and the network estimate a step of the readings", "[mod
     CHECK(std::abs(coefficient(network, "step_1_mgal").value - kStep_mgal) < 5.0);
 }
 
-TEST_CASE("the network has no unknown for a step that it cannot see", "[model][step]") {
+TEST_CASE("the network has no unknown for a step that it cannot see") {
     const std::vector<reading::SurveyRow> rows = made_up::day();
     const UtcTime before = rows.front().time - std::chrono::minutes(5),
                   after = rows.back().time + std::chrono::minutes(5);
@@ -49,14 +49,14 @@ TEST_CASE("the network has no unknown for a step that it cannot see", "[model][s
     for (const Coefficient& one : result.coefficients) CHECK_FALSE(one.name.starts_with("step"));
 }
 
-TEST_CASE("a linear model refuses a step without a reading after it", "[model][step]") {
+TEST_CASE("a linear model refuses a step without a reading after it") {
     const std::vector<reading::SurveyRow> rows = made_up::day();
     CHECK_THROWS_WITH(
         correct_survey(rows, options_of("t-drift", {rows.back().time + std::chrono::minutes(5)})),
         ContainsSubstring("some after each step"));
 }
 
-TEST_CASE("the whole-day model estimates a step, and unknown stations after it", "[model][step]") {
+TEST_CASE("the whole-day model estimates a step, and unknown stations after it") {
     reading::DayRecord day = whole_day::MadeUpDay{}.record();
     std::vector<reading::SurveyRow> rows = rows_of(day);
     for (auto& bin : day.bins)

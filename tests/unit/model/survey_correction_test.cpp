@@ -10,7 +10,7 @@ using namespace a351;
 using namespace a351::corrector::model;
 using namespace a351::corrector::reading;
 
-TEST_CASE("corrections of each linear model add up to the corrected value", "[survey]") {
+TEST_CASE("corrections of each linear model add up to the corrected value") {
     auto rows = made_up::day();
     add(rows[2], 1.5);
     const std::string model = GENERATE("paper", "t", "t-rate", "t-drift", "t-rate-drift", "auto");
@@ -22,7 +22,7 @@ TEST_CASE("corrections of each linear model add up to the corrected value", "[su
     }
 }
 
-TEST_CASE("a station without a reference gets its true value", "[survey]") {
+TEST_CASE("a station without a reference gets its true value") {
     auto rows = made_up::day();
     const MilliGal truth = *rows[6].reference;
     rows[6].reference.reset();
@@ -32,7 +32,7 @@ TEST_CASE("a station without a reference gets its true value", "[survey]") {
     CHECK(result.rows[6].corrected.value() == Approx(truth.value()).epsilon(0).margin(1e-6));
 }
 
-TEST_CASE("an unknown station at a temperature outside those of the fit is named", "[survey]") {
+TEST_CASE("an unknown station at a temperature outside those of the fit is named") {
     auto rows = made_up::day();
     const auto remark_of = [](const std::vector<SurveyRow>& survey) {
         return remark(correct_survey(survey, by_model("t-rate")), "temperature outside");
@@ -51,7 +51,7 @@ TEST_CASE("an unknown station at a temperature outside those of the fit is named
     CHECK(remark_of(rows).empty());
 }
 
-TEST_CASE("stations outside the datum are not in the fit but have a residual", "[survey]") {
+TEST_CASE("stations outside the datum are not in the fit but have a residual") {
     auto options = by_model("t");
     options.datum = {"B", "S2", "S3"};
     const auto result = correct_survey(made_up::day(), options);
@@ -63,7 +63,7 @@ TEST_CASE("stations outside the datum are not in the fit but have a residual", "
     CHECK(result.score.row_count == 7);
 }
 
-TEST_CASE("a flagged row is not in the fit unless flags are ignored", "[survey]") {
+TEST_CASE("a flagged row is not in the fit unless flags are ignored") {
     auto rows = made_up::day();
     rows[3].is_flagged = true;
     add(rows[3], 50.0);
@@ -84,7 +84,7 @@ TEST_CASE("a flagged row is not in the fit unless flags are ignored", "[survey]"
     }
 }
 
-TEST_CASE("an excluded row is in no fit and no mean, even if flags are ignored", "[survey]") {
+TEST_CASE("an excluded row is in no fit and no mean, even if flags are ignored") {
     auto rows = made_up::day();
     rows[3].is_excluded = true;
     add(rows[3], 50.0);
@@ -96,7 +96,7 @@ TEST_CASE("an excluded row is in no fit and no mean, even if flags are ignored",
     CHECK(std::abs(station(result, "S3").residual->value()) < 1e-6);
 }
 
-TEST_CASE("a station with flagged rows only gets their mean and is marked", "[survey]") {
+TEST_CASE("a station with flagged rows only gets their mean and is marked") {
     auto rows = made_up::day();
     rows[1].is_flagged = true;
     const auto result = correct_survey(rows, by_model("t-rate-drift"));
@@ -107,7 +107,7 @@ TEST_CASE("a station with flagged rows only gets their mean and is marked", "[su
           Approx(rows[1].reference->value()).epsilon(0).margin(1e-6));
 }
 
-TEST_CASE("redundancies of the stations add up to the degrees of freedom", "[survey]") {
+TEST_CASE("redundancies of the stations add up to the degrees of freedom") {
     auto rows = made_up::day();
     rows[5].is_flagged = true;
     double sum = 0.0;
@@ -116,7 +116,7 @@ TEST_CASE("redundancies of the stations add up to the degrees of freedom", "[sur
     CHECK(sum == Approx(11.0 - 3.0));
 }
 
-TEST_CASE("the uncertainty of a new station is s sqrt(1 + leverage)", "[survey]") {
+TEST_CASE("the uncertainty of a new station is s sqrt(1 + leverage)") {
     auto rows = made_up::day();
     add(rows[2], 2.0);
     const auto result = correct_survey(rows, by_model("t-rate-drift"));
@@ -125,7 +125,7 @@ TEST_CASE("the uncertainty of a new station is s sqrt(1 + leverage)", "[survey]"
               Approx(result.score.s_mgal.value() * std::sqrt(1.0 + row.leverage.value())));
 }
 
-TEST_CASE("a survey that cannot be corrected is refused with a reason", "[survey]") {
+TEST_CASE("a survey that cannot be corrected is refused with a reason") {
     auto rows = made_up::day();
     auto options = by_model("t");
     SECTION("unknown base") {
@@ -161,7 +161,7 @@ TEST_CASE("a survey that cannot be corrected is refused with a reason", "[survey
     SECTION("no rows at all") { CHECK_THROWS_AS(correct_survey({}, options), InputError); }
 }
 
-TEST_CASE("the difference of the trends is summarised with the site of the largest", "[survey]") {
+TEST_CASE("the difference of the trends is summarised with the site of the largest") {
     SurveyCorrection result;
     CHECK(trend_comparison_text(result).empty());
     for (const auto& [site, occupation, difference_mgal] :

@@ -17,7 +17,7 @@ constexpr double kLimit = 3.74;
 
 }  // namespace
 
-TEST_CASE("auto chooses the whole-day model if the records allow it", "[survey][day]") {
+TEST_CASE("auto chooses the whole-day model if the records allow it") {
     const DayRecord day = kScattered.record();
     const auto rows = rows_of(day);
     const auto result = correct_survey(rows, by_model("auto"), &day);
@@ -30,8 +30,7 @@ TEST_CASE("auto chooses the whole-day model if the records allow it", "[survey][
 
 TEST_CASE(
     "corrections of the whole-day model add up to the corrected value of each row, and a row "
-    "of a station occupied twice is less certain than the station",
-    "[survey][day]") {
+    "of a station occupied twice is less certain than the station") {
     const DayRecord day = kScattered.record();
     const auto result = correct_survey(rows_of(day), by_model("day"), &day);
     for (const CorrectedRow& row : result.rows) {
@@ -50,8 +49,7 @@ TEST_CASE(
         }
 }
 
-TEST_CASE("the value predicted without a station is the value found when its reference is hidden",
-          "[survey][day]") {
+TEST_CASE("the value predicted without a station is the value found when its reference is hidden") {
     const DayRecord day = kScattered.record();
     const auto rows = rows_of(day);
     const auto all = correct_survey(rows, by_model("day"), &day);
@@ -72,7 +70,7 @@ TEST_CASE("the value predicted without a station is the value found when its ref
     }
 }
 
-TEST_CASE("a flagged row has a value and no influence on the others", "[survey][day]") {
+TEST_CASE("a flagged row has a value and no influence on the others") {
     const DayRecord day = kScattered.record();
     auto rows = rows_of(day);
     rows[6].is_flagged = true;
@@ -88,8 +86,8 @@ TEST_CASE("a flagged row has a value and no influence on the others", "[survey][
 }
 
 TEST_CASE(
-    "a blunder alone has a large studentised residual, in the fit or not, and a clean day has none",
-    "[survey][day]") {
+    "a blunder alone has a large studentised residual, in the fit or not, and a clean day "
+    "has none") {
     DayRecord day = kScattered.record();
     const auto large = [&] {
         const auto result = correct_survey(rows_of(day), by_model("day"), &day);
@@ -107,7 +105,7 @@ TEST_CASE(
     CHECK(correct_survey(rows, by_model("day"), &day).rows[8].studentised_residual.value() > 5.0);
 }
 
-TEST_CASE("excluded rows do not influence each other", "[survey][day]") {
+TEST_CASE("excluded rows do not influence each other") {
     // Two rows of one station are excluded; their difference contains information on the drift.
     const DayRecord day = kScattered.record();
     auto rows = rows_of(day);
@@ -134,8 +132,7 @@ TEST_CASE("excluded rows do not influence each other", "[survey][day]") {
               .margin(0.01));
 }
 
-TEST_CASE("if all rows are flagged, the whole-day model is scored only with the flags ignored",
-          "[survey][day]") {
+TEST_CASE("if all rows are flagged, the whole-day model is scored only with the flags ignored") {
     const DayRecord day = kScattered.record();
     auto rows = rows_of(day);
     for (SurveyRow& row : rows) row.is_flagged = true;
@@ -146,7 +143,7 @@ TEST_CASE("if all rows are flagged, the whole-day model is scored only with the 
     CHECK(result.row_sets.back().scores.back().model == "day");
 }
 
-TEST_CASE("the reason why auto does not use the whole-day model is reported", "[survey][day]") {
+TEST_CASE("the reason why auto does not use the whole-day model is reported") {
     DayRecord day = kScattered.record();
     const auto rows = rows_of(day);
     SurveyOptions options = by_model("day");
@@ -160,8 +157,7 @@ TEST_CASE("the reason why auto does not use the whole-day model is reported", "[
                ContainsSubstring("not the whole-day model: the temperature"));
 }
 
-TEST_CASE("auto says what the whole-day model was compared with, or that nothing was",
-          "[survey][day]") {
+TEST_CASE("auto says what the whole-day model was compared with, or that nothing was") {
     const DayRecord day = kScattered.record();
     auto rows = rows_of(day);
     const auto all = correct_survey(rows, by_model("auto"), &day);
@@ -176,7 +172,7 @@ TEST_CASE("auto says what the whole-day model was compared with, or that nothing
                                  "stations); its fit"));
 }
 
-TEST_CASE("the uncertainties of a day that the model does not fit are enlarged", "[survey][day]") {
+TEST_CASE("the uncertainties of a day that the model does not fit are enlarged") {
     DayRecord day = kScattered.record();
     const auto rows = rows_of(day);
     const auto fits = correct_survey(rows, by_model("day"), &day);
@@ -201,8 +197,7 @@ TEST_CASE("the uncertainties of a day that the model does not fit are enlarged",
           Approx(factor * misfit.rows[8].u_corrected->value()).epsilon(1e-9));
 }
 
-TEST_CASE("a bad reading has a large studentised residual although only four stations are known",
-          "[survey][day]") {
+TEST_CASE("a bad reading has a large studentised residual although only four stations are known") {
     DayRecord day = kScattered.record();
     auto rows = rows_of(day);
     know_only(rows, {"S0", "S3", "S6", "S9"});
@@ -215,7 +210,7 @@ TEST_CASE("a bad reading has a large studentised residual although only four sta
     }
 }
 
-TEST_CASE("the residual of a reference counts in units of both uncertainties", "[survey][day]") {
+TEST_CASE("the residual of a reference counts in units of both uncertainties") {
     const DayRecord day = kScattered.record();
     auto rows = rows_of(day);
     for (SurveyRow& row : rows)
@@ -232,7 +227,7 @@ TEST_CASE("the residual of a reference counts in units of both uncertainties", "
     CHECK(std::abs(*loose.studentised_residual) < kLimit);
 }
 
-TEST_CASE("one reading at a known station is enough for the whole-day model", "[survey][day]") {
+TEST_CASE("one reading at a known station is enough for the whole-day model") {
     const DayRecord day = kScattered.record();
     auto rows = rows_of(day);
     for (std::size_t i = 1; i < rows.size(); ++i) rows[i].reference.reset();
@@ -251,8 +246,7 @@ TEST_CASE("one reading at a known station is enough for the whole-day model", "[
     CHECK(correct_survey(rows, by_model("network"), nullptr).model == "network");
 }
 
-TEST_CASE("after a gap of the temperature, estimating the state of the lags halves the error",
-          "[survey][day]") {
+TEST_CASE("after a gap of the temperature, estimating the state of the lags halves the error") {
     DayRecord day = MadeUpDay{}.record();
     const auto rows = rows_of(day);
     // Between the seventh and the eighth set-up the temperature was another one than the line, and
@@ -270,8 +264,7 @@ TEST_CASE("after a gap of the temperature, estimating the state of the lags halv
     CHECK(estimated < 0.5 * believed);
 }
 
-TEST_CASE("auto leaves the whole-day model if a simpler one predicts stations better",
-          "[survey][day]") {
+TEST_CASE("auto leaves the whole-day model if a simpler one predicts stations better") {
     DayRecord day = kScattered.record();
     auto rows = rows_of(day);
     // The rows' means are those of a plain instrument, the bins are of something else.
@@ -293,8 +286,7 @@ TEST_CASE("auto leaves the whole-day model if a simpler one predicts stations be
     CHECK(correct_survey(rows, by_model("auto"), &good).model == "day");
 }
 
-TEST_CASE("a day that does not determine the whole-day model is refused with its reason",
-          "[survey][day]") {
+TEST_CASE("a day that does not determine the whole-day model is refused with its reason") {
     DayRecord day = kScattered.record();
     auto rows = rows_of(day);
     CHECK_THROWS_WITH(correct_survey(rows, by_model("day"), nullptr),
@@ -311,7 +303,7 @@ TEST_CASE("a day that does not determine the whole-day model is refused with its
     CHECK_THROWS_WITH(correct_survey(rows, by_model("day"), &day), ContainsSubstring("S4 (1) has"));
 }
 
-TEST_CASE("a temperature that begins late gives a remark", "[survey][day]") {
+TEST_CASE("a temperature that begins late gives a remark") {
     DayRecord day = kScattered.record();
     CHECK(correct_survey(rows_of(day), by_model("day"), &day).remarks.empty());
     const auto& whole = day.temperature.series;
@@ -323,7 +315,7 @@ TEST_CASE("a temperature that begins late gives a remark", "[survey][day]") {
     CHECK_THAT(remarks.front(), ContainsSubstring("begins 54 min before the first occupation"));
 }
 
-TEST_CASE("in two faces the prior of a calibrated scale is wider", "[survey][day][faces]") {
+TEST_CASE("in two faces the prior of a calibrated scale is wider") {
     const auto prior_with = [](bool has_two_faces) {
         MadeUpDay made_up = kScattered;
         made_up.has_two_faces = has_two_faces;
@@ -340,7 +332,7 @@ TEST_CASE("in two faces the prior of a calibrated scale is wider", "[survey][day
     CHECK(prior_with(true) == Approx(6.1e-4).epsilon(0.01));
 }
 
-TEST_CASE("a report says whether turning the box over pays on this unit", "[survey][day][faces]") {
+TEST_CASE("a report says whether turning the box over pays on this unit") {
     const auto remark_with = [](double share) {
         const DayRecord day = MadeUpDay{.placement_mgal = 1.2,
                                         .white_mgal = 0.2,

@@ -34,7 +34,7 @@ struct Known {
 
 }  // namespace
 
-TEST_CASE("the limits contain the Allan deviation and the levels of known noises", "[noise]") {
+TEST_CASE("the limits contain the Allan deviation and the levels of known noises") {
     const int records = test::is_long() ? 500 : 60;
     constexpr std::size_t kSamples = 1024;
     Share pooled;
@@ -93,7 +93,7 @@ TEST_CASE("the limits contain the Allan deviation and the levels of known noises
     CHECK(std::abs(pooled.value() - 0.95) < (test::is_long() ? 0.01 : 0.025));
 }
 
-TEST_CASE("the Allan deviation of several stays, and its limits", "[noise]") {
+TEST_CASE("the Allan deviation of several stays, and its limits") {
     // No difference reaches from stay to stay, so their levels have no effect.
     std::vector<std::vector<double>> stays{
         white_noise(200, 1.0, 1), white_noise(120, 1.0, 2), {5.0, 7.0}};
@@ -127,7 +127,7 @@ TEST_CASE("the Allan deviation of several stays, and its limits", "[noise]") {
     CHECK(std::abs(share.value() - 0.95) < 0.025);
 }
 
-TEST_CASE("a cycle of the oven is not taken for noise", "[noise]") {
+TEST_CASE("a cycle of the oven is not taken for noise") {
     std::vector<double> values = white_noise(4000, 0.5, 11);
     CHECK(analyse_allan(values, kStep_s).noises.describes_record);
     for (std::size_t i = 0; i < values.size(); ++i)

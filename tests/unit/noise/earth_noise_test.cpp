@@ -16,7 +16,7 @@ double level_db(GroundNoise model, double period_s) {
 }  // namespace
 
 // Levels: P. Bormann (ed.), New Manual of Seismological Observatory Practice, 2012, table 4.2.
-TEST_CASE("the noise of the ground has the published levels at its corners", "[noise]") {
+TEST_CASE("the noise of the ground has the published levels at its corners") {
     using Corner = std::pair<double, double>;
     for (const auto& [period_s, db] :
          {Corner{0.10, -168.0},  Corner{0.17, -166.7},  Corner{0.40, -166.7},
@@ -37,7 +37,7 @@ TEST_CASE("the noise of the ground has the published levels at its corners", "[n
     CHECK(std::isnan(ground_noise_mgal_per_sqrt_hz(GroundNoise::high, 1.1e5)));
 }
 
-TEST_CASE("the parts of the noise of the ground meet", "[noise]") {
+TEST_CASE("the parts of the noise of the ground meet") {
     for (const auto model : {GroundNoise::low, GroundNoise::high})
         for (double period_s = 0.1; period_s < 9e4; period_s *= 1.001)
             CHECK(std::abs(level_db(model, 1.001 * period_s) - level_db(model, period_s)) < 0.3);

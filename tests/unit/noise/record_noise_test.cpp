@@ -12,12 +12,12 @@ constexpr std::size_t kCount = 20'000;
 
 }  // namespace
 
-TEST_CASE("a longer stay hardly helps against a random walk", "[noise]") {
+TEST_CASE("a longer stay hardly helps against a random walk") {
     const RecordNoise noise = record_noise(random_walk(kCount, 0.1, 2), kStep_s);
     CHECK(noise.stays.front().scatter_mgal < 1.3 * noise.useful->scatter_mgal);
 }
 
-TEST_CASE("a stay as long as the cycle of the oven is useful, a shorter one is not", "[noise]") {
+TEST_CASE("a stay as long as the cycle of the oven is useful, a shorter one is not") {
     std::vector<double> values = white_noise(kCount, 0.1, 3);
     for (std::size_t i = 0; i < values.size(); ++i)
         values[i] += 3.0 * std::sin(2.0 * 3.14159265 * static_cast<double>(i) * kStep_s / 1000.0);
@@ -27,7 +27,7 @@ TEST_CASE("a stay as long as the cycle of the oven is useful, a shorter one is n
     CHECK(noise.stays.front().scatter_mgal > 5.0 * noise.useful->scatter_mgal);
 }
 
-TEST_CASE("white noise asks for the longest stay, and a short record for none", "[noise]") {
+TEST_CASE("white noise asks for the longest stay, and a short record for none") {
     const std::vector<double> values = white_noise(kCount, 2.0, 5);
     const RecordNoise noise = record_noise(values, kStep_s);
     CHECK(noise.useful->averaging_s == noise.stays.back().averaging_s);

@@ -46,7 +46,7 @@ double dense(const std::vector<double>& values, std::size_t length, std::size_t 
 
 }  // namespace
 
-TEST_CASE("a spectral density equals its definition", "[noise]") {
+TEST_CASE("a spectral density equals its definition") {
     for (std::uint64_t seed = 1; seed <= 10; ++seed) {
         auto values = random_walk(720, 0.3, seed);
         const auto white = white_noise(720, 1.0, seed);
@@ -60,8 +60,7 @@ TEST_CASE("a spectral density equals its definition", "[noise]") {
     }
 }
 
-TEST_CASE("the density of several stays has no segment that reaches from one to the next",
-          "[noise]") {
+TEST_CASE("the density of several stays has no segment that reaches from one to the next") {
     constexpr std::size_t kLength = 90;
     std::vector<std::vector<double>> stays;
     for (std::uint64_t seed = 1; seed <= 4; ++seed) {
@@ -78,7 +77,7 @@ TEST_CASE("the density of several stays has no segment that reaches from one to 
     CHECK(pooled_density({stays.back()}, kStep_s, kLength).empty());
 }
 
-TEST_CASE("limits of the density of several stays contain it", "[noise]") {
+TEST_CASE("limits of the density of several stays contain it") {
     constexpr int kDays = 200;
     int inside = 0, all = 0;
     for (std::uint64_t day = 0; day < kDays; ++day) {
@@ -96,7 +95,7 @@ TEST_CASE("limits of the density of several stays contain it", "[noise]") {
     CHECK(std::abs(static_cast<double>(inside) / all - 0.95) < 0.01);
 }
 
-TEST_CASE("a spectrogram shows when and at which frequency a signal is", "[noise]") {
+TEST_CASE("a spectrogram shows when and at which frequency a signal is") {
     auto values = white_noise(6 * 180, 0.1, 3);  // 6 h
     for (std::size_t i = 540; i < values.size(); ++i)
         values[i] += std::sin(2.0 * std::numbers::pi * 0.005 * static_cast<double>(i) * kStep_s);
@@ -122,7 +121,7 @@ TEST_CASE("a spectrogram shows when and at which frequency a signal is", "[noise
     CHECK(spectrogram(white_noise(350, 1.0, 1), kStep_s).empty());
 }
 
-TEST_CASE("the limits contain the density of known noise", "[noise]") {
+TEST_CASE("the limits contain the density of known noise") {
     constexpr std::size_t kCount = 1024;
     const int records = test::is_long() ? 2000 : 500;
     std::vector<int> inside;

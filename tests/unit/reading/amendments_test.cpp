@@ -34,8 +34,7 @@ std::vector<Amendment> amended(std::vector<OccupationWindow>& windows, const std
 
 }  // namespace
 
-TEST_CASE("amendments change occupations, add notes, and are reported with their reason",
-          "[survey][amendments]") {
+TEST_CASE("amendments change occupations, add notes, and are reported with their reason") {
     auto windows = list();
     const auto amendments =
         amended(windows,
@@ -62,7 +61,7 @@ TEST_CASE("amendments change occupations, add notes, and are reported with their
         R"({"kind":"exclude","site":"A","occupation":1,"set_up":2,"change":"","reason":"knock"})");
 }
 
-TEST_CASE("an amendment without a set-up applies to the whole stay", "[survey][amendments]") {
+TEST_CASE("an amendment without a set-up applies to the whole stay") {
     auto windows = list();
     amended(windows,
             "[[exclude]]\nsite='A'\noccupation=1\nreason='r'\n"
@@ -75,8 +74,7 @@ TEST_CASE("an amendment without a set-up applies to the whole stay", "[survey][a
     }
 }
 
-TEST_CASE("amendments refer to the original list, so that two names can be exchanged",
-          "[survey][amendments]") {
+TEST_CASE("amendments refer to the original list, so that two names can be exchanged") {
     auto windows = list();
     amended(windows,
             "[[rename]]\nsite='A'\noccupation=1\nto='B'\nreason='r'\n"
@@ -87,7 +85,7 @@ TEST_CASE("amendments refer to the original list, so that two names can be excha
     CHECK(windows[2].occupation == 3);
 }
 
-TEST_CASE("set-ups, steps and references are amended", "[survey][amendments]") {
+TEST_CASE("set-ups, steps and references are amended") {
     const test::TemporaryDirectory folder;
     auto windows = list();
     auto sites = kAmendedSites;
@@ -121,7 +119,7 @@ TEST_CASE("set-ups, steps and references are amended", "[survey][amendments]") {
           "amended: reference B to 979950.500 mGal: measured\n");
 }
 
-TEST_CASE("a bad amendment is refused with line, key and value", "[survey][amendments]") {
+TEST_CASE("a bad amendment is refused with line, key and value") {
     const std::string one = "site='A'\noccupation=2\nreason='r'\n";
     const auto [toml, message] = GENERATE_COPY(table<std::string, std::string>({
         {"[[exclude]]\n" + one + "why='r'\n", "amendments.toml:5: exclude.why = 'r': unknown key"},

@@ -63,8 +63,7 @@ void check_same_readings(const OccupationRows& a, const OccupationRows& b) {
 
 }  // namespace
 
-TEST_CASE("occupations read from the archive have the values that were written",
-          "[survey][archive]") {
+TEST_CASE("occupations read from the archive have the values that were written") {
     Morning morning;
     const OccupationRows result = average(morning);
     CHECK(result.warnings.empty());
@@ -90,8 +89,7 @@ TEST_CASE("occupations read from the archive have the values that were written",
     }
 }
 
-TEST_CASE("the result contains the record of each row and the temperature of the day",
-          "[survey][archive]") {
+TEST_CASE("the result contains the record of each row and the temperature of the day") {
     Morning morning;
     const OccupationRows result = average(morning);
     constexpr double kHalfCount_degc = 0.0019;  // near the top the temperature stays on one count
@@ -115,8 +113,7 @@ TEST_CASE("the result contains the record of each row and the temperature of the
     }
 }
 
-TEST_CASE("a face that was entered wrong is a finding, and the data decide",
-          "[survey][archive][faces]") {
+TEST_CASE("a face that was entered wrong is a finding, and the data decide") {
     Morning morning;
     std::string rows = "site,occupation,start_utc,end_utc,face\n";
     for (std::size_t i = 0; i < 4; ++i) {
@@ -135,7 +132,7 @@ TEST_CASE("a face that was entered wrong is a finding, and the data decide",
     CHECK(std::ranges::all_of(result.rows, [](const SurveyRow& row) { return row.face == 1; }));
 }
 
-TEST_CASE("two runs over the same archive are bit-identical", "[survey][archive]") {
+TEST_CASE("two runs over the same archive are bit-identical") {
     Morning morning;
     const auto a = average(morning);
     const auto b = average(morning);
@@ -144,7 +141,7 @@ TEST_CASE("two runs over the same archive are bit-identical", "[survey][archive]
     CHECK(a.inputs.size() == 4 + 8);  // survey, sites, metadata, occupations; 4 channels, 2 days
 }
 
-TEST_CASE("occupations are read from the event log if no table is given", "[survey][archive]") {
+TEST_CASE("occupations are read from the event log if no table is given") {
     Morning morning;
     log_stays(morning, true);
     const auto logged = average(morning, "");
@@ -152,8 +149,7 @@ TEST_CASE("occupations are read from the event log if no table is given", "[surv
     check_same_readings(logged, listed);
 }
 
-TEST_CASE("the last stay of a log without a stop lasts until the end of the record",
-          "[survey][archive]") {
+TEST_CASE("the last stay of a log without a stop lasts until the end of the record") {
     Morning morning;
     log_stays(morning, false);
     const auto result = average(morning, "");
@@ -173,7 +169,7 @@ TEST_CASE("the last stay of a log without a stop lasts until the end of the reco
     CHECK(std::chrono::abs(*finding.time - end) < 1s);
 }
 
-TEST_CASE("an occupation outside the archive is left out and reported", "[survey][archive]") {
+TEST_CASE("an occupation outside the archive is left out and reported") {
     Morning morning;
     const auto result = average_listed(morning,
                                        "B,1,2020-05-01T23:50:20Z,2020-05-01T23:52:50Z,1,\n"
@@ -183,8 +179,7 @@ TEST_CASE("an occupation outside the archive is left out and reported", "[survey
     CHECK(result.warnings[0] == "S1 (1) at 2020-05-02T03:00:00Z is left out: no samples");
 }
 
-TEST_CASE("a stay with values of a wrong profile is left out, and the others do not see them",
-          "[survey][archive]") {
+TEST_CASE("a stay with values of a wrong profile is left out, and the others do not see them") {
     const auto right = average(Morning());
     for (const auto sensors :
          {Morning::Sensors::wrong_scale, Morning::Sensors::wrong_temperature}) {
@@ -206,13 +201,13 @@ TEST_CASE("a stay with values of a wrong profile is left out, and the others do 
     }
 }
 
-TEST_CASE("a survey without any sample is refused", "[survey][archive]") {
+TEST_CASE("a survey without any sample is refused") {
     Morning morning;
     CHECK_THROWS_AS(average_listed(morning, "B,1,2021-05-01T23:50:20Z,2021-05-01T23:52:50Z,1,\n"),
                     InputError);
 }
 
-TEST_CASE("the tide of a row is that of the middle of its interval", "[survey][archive]") {
+TEST_CASE("the tide of a row is that of the middle of its interval") {
     Morning morning;
     const auto result =
         read(survey_of(morning, "occupations='occupations.csv'\ndelta2=1.2\ndelta3=1.2\n"));
@@ -225,8 +220,7 @@ TEST_CASE("the tide of a row is that of the middle of its interval", "[survey][a
     }
 }
 
-TEST_CASE("a day with an exchange is one survey for each sensor, each with its own readings",
-          "[survey][archive][units]") {
+TEST_CASE("a day with an exchange is one survey for each sensor, each with its own readings") {
     const Morning morning(Morning::Sensors::exchanged);
     const SurveyFile day = survey_of(morning);
     CHECK_THROWS_WITH(read(day), ContainsSubstring("several sensors (00000001, 00000777)"));
@@ -264,7 +258,7 @@ TEST_CASE("a day with an exchange is one survey for each sensor, each with its o
     }
 }
 
-TEST_CASE("a stay during which the sensor was exchanged ends there", "[survey][archive][units]") {
+TEST_CASE("a stay during which the sensor was exchanged ends there") {
     const Morning morning(Morning::Sensors::exchanged);
     morning.folder().write("occupations.csv",
                            "site,occupation,start_utc,end_utc,used,note\n"
@@ -281,7 +275,7 @@ TEST_CASE("a stay during which the sensor was exchanged ends there", "[survey][a
     CHECK(read(parts[1]).rows.size() == 1);
 }
 
-TEST_CASE("a calibration is used for its sensor alone", "[survey][archive][units]") {
+TEST_CASE("a calibration is used for its sensor alone") {
     const Morning morning(Morning::Sensors::exchanged);
     SurveyFile day = survey_of(morning);
     day.survey.calibration.emplace().serial_number = "00000777";

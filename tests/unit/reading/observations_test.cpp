@@ -34,7 +34,7 @@ const std::string kTableHeader =
 
 }  // namespace
 
-TEST_CASE("rows are read with all their columns and sorted by time", "[survey][observations]") {
+TEST_CASE("rows are read with all their columns and sorted by time") {
     const auto rows = TableFile(kTableHeader +
                                 "B,1,1,2020-01-01T02:00:00Z,-0.02,981700.5,42.7\n"
                                 "A,1,0,2020-01-01T00:00:00,0.01,981700.25,42.5\n")
@@ -50,8 +50,7 @@ TEST_CASE("rows are read with all their columns and sorted by time", "[survey][o
     CHECK(rows[1].rate_degc_per_h == Approx(0.1));
 }
 
-TEST_CASE("a local time column, a zone in the cell and UTC give the same time",
-          "[survey][observations]") {
+TEST_CASE("a local time column, a zone in the cell and UTC give the same time") {
     const UtcTime expected = parse_rfc3339("2019-12-31T23:42:12Z").value();
     const auto [column, cell] = GENERATE(table<std::string, std::string>({
         {"time_utc", "2019-12-31T23:42:12"},
@@ -70,8 +69,7 @@ TEST_CASE("a local time column, a zone in the cell and UTC give the same time",
     CHECK_FALSE(rows.front().given_tide.has_value());
 }
 
-TEST_CASE("a bad table of observations is refused with line, column and value",
-          "[survey][observations]") {
+TEST_CASE("a bad table of observations is refused with line, column and value") {
     const std::string good = "A,1,0,2020-01-01T00:00:00Z,0.01,981700,42.5\n";
     const auto [content, message] = GENERATE_COPY(table<std::string, std::string>({
         {kTableHeader + "C,1,0,2020-01-01T00:00:00Z,0.01,981700,42.5\n", ":2: site = C: unknown"},
@@ -101,8 +99,7 @@ TEST_CASE("a bad table of observations is refused with line, column and value",
     CHECK_THROWS_AS(file.read(), InputError);
 }
 
-TEST_CASE("a row far from all others in time is named, rows of a series of single readings are not",
-          "[survey][observations]") {
+TEST_CASE("a row far from all others in time is named, rows of a series of single readings are not") {
     const auto warnings = [](const std::string& second, const std::string& last) {
         std::string rows = kTableHeader;
         for (const std::string& time : {std::string("2020-03-01T00:00:00Z"), second,
@@ -120,8 +117,7 @@ TEST_CASE("a row far from all others in time is named, rows of a series of singl
     CHECK(warnings("2010-03-01T01:00:00Z", "2020-04-01T02:00:00Z").empty());
 }
 
-TEST_CASE("the scatter of an average is that of its readings divided by the root of their number",
-          "[survey][observations]") {
+TEST_CASE("the scatter of an average is that of its readings divided by the root of their number") {
     const std::string line = "A,1,2020-01-01T00:00:00Z,979800,42.5,";
     const std::string header = "site,occupation,time_utc,acceleration_mgal,temperature_degc,";
     CHECK(TableFile(header + "sd_mgal\n" + line + "0.3\n").read()[0].u_average == MilliGal(0.3));
@@ -133,8 +129,8 @@ TEST_CASE("the scatter of an average is that of its readings divided by the root
 }
 
 TEST_CASE(
-    "rows of gravimeters have instrument and loop, and need neither a full value nor a temperature",
-    "[survey][observations]") {
+    "rows of gravimeters have instrument and loop, and need neither a full value nor a "
+    "temperature") {
     const std::string header =
         "site,occupation,time_utc,acceleration_mgal,temperature_degc,instrument,loop\n";
     const auto rows = TableFile(header +

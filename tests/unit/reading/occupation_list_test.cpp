@@ -23,8 +23,7 @@ OccupationList read(const std::string& rows) {
 
 }  // namespace
 
-TEST_CASE("occupations are sorted by time, with several set-ups of one stay",
-          "[survey][occupations]") {
+TEST_CASE("occupations are sorted by time, with several set-ups of one stay") {
     const auto list = read(
         "B,1,2020-01-01T02:00:00Z,2020-01-01T02:12:00Z,0,knocked\n"
         "A,1,2020-01-01T00:00:00,2020-01-01T00:06:00,1,\n"
@@ -37,8 +36,7 @@ TEST_CASE("occupations are sorted by time, with several set-ups of one stay",
     CHECK(list.windows[2].end - list.windows[2].start == std::chrono::minutes(12));
 }
 
-TEST_CASE("a table of occupations can say the faces of its set-ups",
-          "[survey][occupations][faces]") {
+TEST_CASE("a table of occupations can say the faces of its set-ups") {
     const test::TemporaryDirectory folder;
     const std::string head = "site,occupation,start_utc,end_utc,face\n",
                       row = "A,1,2020-01-01T00:00:00Z,2020-01-01T00:06:00Z,";
@@ -55,8 +53,7 @@ TEST_CASE("a table of occupations can say the faces of its set-ups",
                                                       "or empty"));
 }
 
-TEST_CASE("a bad table of occupations is refused with line, column and value",
-          "[survey][occupations]") {
+TEST_CASE("a bad table of occupations is refused with line, column and value") {
     const auto [rows, message] = GENERATE(table<std::string, std::string>({
         {"C,1,2020-01-01T00:00:00Z,2020-01-01T00:06:00Z,1,\n", ":2: site = C: unknown"},
         {"A,0,2020-01-01T00:00:00Z,2020-01-01T00:06:00Z,1,\n", "occupation = 0"},
@@ -71,8 +68,7 @@ TEST_CASE("a bad table of occupations is refused with line, column and value",
     CHECK_THROWS_AS(read(rows), InputError);
 }
 
-TEST_CASE("a mistake in the field excludes only its own occupation, which is reported",
-          "[survey][occupations]") {
+TEST_CASE("a mistake in the field excludes only its own occupation, which is reported") {
     const test::TemporaryDirectory folder;
     const auto file =
         folder.write("2020-01.jsonl",
@@ -99,8 +95,7 @@ TEST_CASE("a mistake in the field excludes only its own occupation, which is rep
     CHECK(list.left_out[0].site == "AA");
 }
 
-TEST_CASE("the last day of a log of several days is taken, or the requested time",
-          "[survey][occupations]") {
+TEST_CASE("the last day of a log of several days is taken, or the requested time") {
     const test::TemporaryDirectory folder;
     std::string log;
     // On the first day the last stop was forgotten, so that the occupation lasts to the next
@@ -143,8 +138,7 @@ TEST_CASE("the last day of a log of several days is taken, or the requested time
                  "2020-01-01T08:00:00Z, the last at 2020-01-02T13:59:59Z"));
 }
 
-TEST_CASE("an end typed too late excludes its own occupation, not those it overlaps",
-          "[survey][occupations]") {
+TEST_CASE("an end typed too late excludes its own occupation, not those it overlaps") {
     const auto list = read(
         "A,1,2020-01-01T00:00:00Z,2020-01-01T05:06:00Z,1,\n"
         "B,1,2020-01-01T01:00:00Z,2020-01-01T01:06:00Z,1,\n"
@@ -158,8 +152,7 @@ TEST_CASE("an end typed too late excludes its own occupation, not those it overl
 }
 
 TEST_CASE(
-    "two occupations that overlap each other are both left out, swapped times exclude only one",
-    "[survey][occupations]") {
+    "two occupations that overlap each other are both left out, swapped times exclude only one") {
     const auto list = read(
         "A,1,2020-01-01T00:00:00Z,2020-01-01T00:06:00Z,1,\n"
         "B,1,2020-01-01T00:05:00Z,2020-01-01T00:11:00Z,1,\n"
@@ -173,8 +166,7 @@ TEST_CASE(
     CHECK(list.left_out[2].site == "B");
 }
 
-TEST_CASE("a set-up of a running stay counts when the journal has samples of it",
-          "[survey][occupations]") {
+TEST_CASE("a set-up of a running stay counts when the journal has samples of it") {
     const test::TemporaryDirectory folder;
     std::string log = R"({"type":"start","utc":"2020-01-01T08:00:00Z","site":"A"})"
                       "\n";

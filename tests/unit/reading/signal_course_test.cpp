@@ -7,8 +7,7 @@ using namespace a351::corrector;
 using namespace a351::corrector::reading;
 using namespace std::chrono_literals;
 
-TEST_CASE("a word lasts until the next one, but not over a pause of the recorder",
-          "[survey][temperature]") {
+TEST_CASE("a word lasts until the next one, but not over a pause of the recorder") {
     const auto minute = [](int k) {
         return parse_rfc3339("2020-01-01T00:00:00Z").value() + k * 1min;
     };

@@ -17,8 +17,7 @@ events::Event test_event(const char* hour, const char* result, const char* unit 
 
 }  // namespace
 
-TEST_CASE("a start-up test that was not passed is found in the times until the next test",
-          "[survey][start_up]") {
+TEST_CASE("a start-up test that was not passed is found in the times until the next test") {
     const std::vector<events::Event> events{test_event("12:00", "passed"),
                                             test_event("08:00", "HARD_ERR"),
                                             test_event("14:00", "unknown")};
@@ -38,7 +37,7 @@ TEST_CASE("a start-up test that was not passed is found in the times until the n
           "start_up_test_unknown");
 }
 
-TEST_CASE("a start-up test is found for the sensor that was tested only", "[survey][start_up]") {
+TEST_CASE("a start-up test is found for the sensor that was tested only") {
     const std::vector<events::Event> events{test_event("08:00", "HARD_ERR", "00000001"),
                                             test_event("10:00", "passed", "00000002"),
                                             test_event("12:00", "HARD_ERR", "00000001")};

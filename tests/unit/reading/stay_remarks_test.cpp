@@ -32,7 +32,7 @@ archive::ChannelData record() {
 
 }  // namespace
 
-TEST_CASE("nothing is said of a day of ordinary stays", "[survey][remarks]") {
+TEST_CASE("nothing is said of a day of ordinary stays") {
     CHECK(stay_remarks(day(), record()).empty());
     CHECK(stay_remarks({}, {}).empty());
     auto brief = day();  // half as long as the others is not short from six minutes on
@@ -40,8 +40,7 @@ TEST_CASE("nothing is said of a day of ordinary stays", "[survey][remarks]") {
     CHECK(stay_remarks(brief, record()).empty());
 }
 
-TEST_CASE("a stay without a stop is named, unless its move or an amendment ends it",
-          "[survey][remarks]") {
+TEST_CASE("a stay without a stop is named, unless its move or an amendment ends it") {
     auto windows = day();
     windows[1].notes = {"no-stop"};
     windows[1].key = "20200501T063000Z";
@@ -58,7 +57,7 @@ TEST_CASE("a stay without a stop is named, unless its move or an amendment ends 
     }
 }
 
-TEST_CASE("a stay much shorter than the others is named with both lengths", "[survey][remarks]") {
+TEST_CASE("a stay much shorter than the others is named with both lengths") {
     auto windows = day();
     windows[3].end = windows[3].start + 4min;
     const auto findings = stay_remarks(windows, record());
@@ -75,7 +74,7 @@ TEST_CASE("a stay much shorter than the others is named with both lengths", "[su
     CHECK(stay_remarks(windows, record()).empty());
 }
 
-TEST_CASE("uncertain times and a clock that was set back are named", "[survey][remarks]") {
+TEST_CASE("uncertain times and a clock that was set back are named") {
     auto uncertain = record();
     for (auto& anchor : uncertain.segments[0].anchors) {
         if (anchor.time >= kMorning + 1h) continue;
@@ -104,8 +103,7 @@ TEST_CASE("uncertain times and a clock that was set back are named", "[survey][r
     CHECK(stay_remarks(day(), stepped).empty());
 }
 
-TEST_CASE("a face other than entered or planned is named, and the entered one counts more",
-          "[survey][remarks][faces]") {
+TEST_CASE("a face other than entered or planned is named, and the entered one counts more") {
     OccupationWindow window = day().front();
     CHECK_FALSE(other_face(window, -1));
     window.face.planned = 1;

@@ -53,8 +53,7 @@ constexpr std::array<std::array<std::size_t, 3>, 3> kOrders{{{0, 1, 2}, {2, 0, 1
 
 }  // namespace
 
-TEST_CASE("the vertical axis is found in six mountings and three orders of the channels",
-          "[survey][vertical]") {
+TEST_CASE("the vertical axis is found in six mountings and three orders of the channels") {
     const std::array<const char*, 3> codes{"BN1", "BN2", "BNZ"};
     for (const auto& order : kOrders)
         for (std::size_t axis = 0; axis < 3; ++axis)
@@ -79,8 +78,7 @@ TEST_CASE("the vertical axis is found in six mountings and three orders of the c
             }
 }
 
-TEST_CASE("the vertical axis is found if the sensor is turned over between the windows",
-          "[survey][vertical][faces]") {
+TEST_CASE("the vertical axis is found if the sensor is turned over between the windows") {
     Mounted sensor{{0.002, -0.003, 1.0018}, kOrders[1]};
     sensor.turns_later = true;
     sensor.look();
@@ -88,14 +86,14 @@ TEST_CASE("the vertical axis is found if the sensor is turned over between the w
     CHECK(sensor.warning.empty());
 }
 
-TEST_CASE("a dip that contradicts gravity is named, and gravity counts", "[survey][vertical]") {
+TEST_CASE("a dip that contradicts gravity is named, and gravity counts") {
     Mounted sensor{{0.0, 0.001, 1.0}, kOrders[0], {-90.0, 0.0, 0.0}};
     sensor.look();
     CHECK(sensor.epoch.channels[2].code == "BNZ");
     CHECK_THAT(sensor.warning, ContainsSubstring("BN1 is vertical by its dip"));
 }
 
-TEST_CASE("a sensor that lies askew is refused with the means of its axes", "[survey][vertical]") {
+TEST_CASE("a sensor that lies askew is refused with the means of its axes") {
     Mounted sensor{{0.7, 0.1, 0.71}, kOrders[0]};
     CHECK_THROWS_WITH(sensor.look(),
                       "station.xml: no axis is vertical: BN1 0.7000 g, BN2 0.1000 "

@@ -23,8 +23,7 @@ UtcTime at(const std::string& time) { return parse_rfc3339("2026-03-01T" + time 
 
 }  // namespace
 
-TEST_CASE("the pressure is linear between the rows, and absent in gaps and outside",
-          "[reduction]") {
+TEST_CASE("the pressure is linear between the rows, and absent in gaps and outside") {
     const AirPressure record = pressure(
         "2026-03-01T00:00:00Z,900\n2026-03-01T10:00:00+09:00,904\n2026-03-01T05:00:00Z,910\n");
     CHECK(record.at(at("00:15:00")).value() == 901.0);
@@ -35,7 +34,7 @@ TEST_CASE("the pressure is linear between the rows, and absent in gaps and outsi
     CHECK_FALSE(record.at(at("00:00:00") - std::chrono::seconds(1)));
 }
 
-TEST_CASE("a pressure that is no pressure of the ground is refused with its line", "[reduction]") {
+TEST_CASE("a pressure that is no pressure of the ground is refused with its line") {
     CHECK_THROWS_WITH(pressure("2026-03-01T00:00:00Z,900\n2026-03-01T01:00:00Z,90400\n"),
                       ContainsSubstring("pressure.csv:3: pressure_hpa = 90400"));
     CHECK_THROWS_WITH(pressure("2026-03-01T01:00:00Z,900\n2026-03-01T00:00:00Z,900\n"),
@@ -43,7 +42,7 @@ TEST_CASE("a pressure that is no pressure of the ground is refused with its line
     CHECK_THROWS_WITH(pressure("2026-03-01T01:00:00Z,900\n"), ContainsSubstring("too few rows"));
 }
 
-TEST_CASE("a barometer's channel in the archive gives the pressure of a reading", "[reduction]") {
+TEST_CASE("a barometer's channel in the archive gives the pressure of a reading") {
     const test::TemporaryDirectory folder;
     const UtcTime start = *parse_rfc3339("2026-03-01T23:00:00Z");
     auto channel = pressure_channel("XX.BARO.00.LDO").value();

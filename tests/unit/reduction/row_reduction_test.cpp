@@ -24,7 +24,7 @@ reading::SurveyRow row(const std::string& site, const std::string& time) {
 
 }  // namespace
 
-TEST_CASE("a reading above the mark is raised by the gradient of its site", "[reduction]") {
+TEST_CASE("a reading above the mark is raised by the gradient of its site") {
     std::vector<reading::SurveyRow> rows{row("base", "01:00:00"), row("peak", "02:00:00")};
     rows[0].instrument_height = Metres(0.25);
     rows[1].instrument_height = Metres(0.5);
@@ -35,8 +35,7 @@ TEST_CASE("a reading above the mark is raised by the gradient of its site", "[re
     CHECK_FALSE(rows[0].pressure_correction);
 }
 
-TEST_CASE("an absolute value at its transfer height comes down to that of the mark",
-          "[reduction]") {
+TEST_CASE("an absolute value at its transfer height comes down to that of the mark") {
     // tests/golden/usgs/rg26_2017-12-01: at 100 cm, gradient -3.000 uGal/cm; absolute.csv: the mark.
     std::vector<reading::SurveyRow> rows{row("base", "01:00:00")};
     rows[0].acceleration = MilliGal(979197.57592);
@@ -45,8 +44,7 @@ TEST_CASE("an absolute value at its transfer height comes down to that of the ma
     CHECK(rows[0].acceleration.value() == Approx(979197.8759).epsilon(0.0).margin(0.00005));
 }
 
-TEST_CASE("the height of the survey serves readings without one, and a bin has that of its row",
-          "[reduction]") {
+TEST_CASE("the height of the survey serves readings without one, and a bin has that of its row") {
     std::vector<reading::SurveyRow> rows{row("base", "01:00:00"), row("peak", "02:00:00")};
     rows[1].instrument_height = Metres(0.0);
     reading::DayRecord day{{TimeSeries<DegC>{rows[0].time, Hertz(1.0), {42.5, 42.5}}, {}}, {}};
@@ -59,8 +57,7 @@ TEST_CASE("the height of the survey serves readings without one, and a bin has t
     CHECK(day.bins[1].reading.value() == 0.0);
 }
 
-TEST_CASE("more air than in the standard atmosphere pulls up, and the reading is raised",
-          "[reduction]") {
+TEST_CASE("more air than in the standard atmosphere pulls up, and the reading is raised") {
     std::vector<reading::SurveyRow> rows{row("base", "01:00:00"), row("peak", "02:00:00")};
     rows[0].pressure_hpa = 1023.25;
     rows[1].pressure_hpa = normal_pressure_hpa(Metres(1000.0)) - 20.0;
@@ -71,7 +68,7 @@ TEST_CASE("more air than in the standard atmosphere pulls up, and the reading is
     CHECK(rows[0].acceleration.value() == Approx(979000.003).epsilon(0.0).margin(1e-9));
 }
 
-TEST_CASE("a reading without height or pressure beside others is named", "[reduction]") {
+TEST_CASE("a reading without height or pressure beside others is named") {
     std::vector<reading::SurveyRow> rows{row("base", "01:00:00"), row("peak", "02:00:00")};
     rows[0].instrument_height = Metres(0.25);
     rows[0].pressure_hpa = 1000.0;
@@ -84,7 +81,7 @@ TEST_CASE("a reading without height or pressure beside others is named", "[reduc
     CHECK(rows[1].pressure_correction->value() == 0.0);
 }
 
-TEST_CASE("a pressure reduced to sea level is refused at a mountain", "[reduction]") {
+TEST_CASE("a pressure reduced to sea level is refused at a mountain") {
     std::vector<reading::SurveyRow> rows{row("peak", "02:00:00")};
     rows[0].pressure_hpa = 1053.0;
     CHECK_THROWS_WITH(reduce_rows(rows, kSites, {}, {}),
@@ -92,7 +89,7 @@ TEST_CASE("a pressure reduced to sea level is refused at a mountain", "[reductio
                           ContainsSubstring("not reduced to sea level"));
 }
 
-TEST_CASE("a pressure at a site without an altitude is refused", "[reduction]") {
+TEST_CASE("a pressure at a site without an altitude is refused") {
     std::vector<reading::SurveyRow> rows{row("base", "01:00:00")};
     rows[0].pressure_hpa = 1003.0;
     auto sites = kSites;
@@ -102,7 +99,7 @@ TEST_CASE("a pressure at a site without an altitude is refused", "[reduction]") 
                           ContainsSubstring("altitude_m"));
 }
 
-TEST_CASE("a reading is not reduced for the pressure if the admittance is fitted", "[reduction]") {
+TEST_CASE("a reading is not reduced for the pressure if the admittance is fitted") {
     std::vector<reading::SurveyRow> rows{row("base", "01:00:00")};
     const ReductionChoice fitted{.height = {}, .pressure = {}, .is_admittance_fitted = true};
     CHECK_THROWS_WITH(reduce_rows(rows, kSites, {}, fitted),
@@ -117,7 +114,7 @@ TEST_CASE("a reading is not reduced for the pressure if the admittance is fitted
     CHECK(rows[0].excess_pressure_hpa.value() == Approx(10.0));
 }
 
-TEST_CASE("a file of the pressure of another day is refused", "[reduction]") {
+TEST_CASE("a file of the pressure of another day is refused") {
     const test::TemporaryDirectory folder;
     std::vector<reading::SurveyRow> rows{row("base", "01:00:00")};
     const auto file = folder.write(
@@ -126,8 +123,7 @@ TEST_CASE("a file of the pressure of another day is refused", "[reduction]") {
                       ContainsSubstring("no pressure at the time of any reading"));
 }
 
-TEST_CASE("gradients are read where the table has them, and a wrong sign is refused",
-          "[reduction]") {
+TEST_CASE("gradients are read where the table has them, and a wrong sign is refused") {
     const test::TemporaryDirectory folder;
     const auto gradients =
         read_gradients(folder.write("sites.csv", "site,gradient_mgal_per_m\nbase,\npeak,0.35\n"));

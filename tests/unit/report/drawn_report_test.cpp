@@ -7,9 +7,8 @@ using namespace a351;
 using namespace a351::corrector::report;
 
 TEST_CASE(
-    "without gnuplot the report has its text, scripts and data, and says that the figures are "
-    "missing",
-    "[report][page]") {
+    "without gnuplot the report has its text, scripts and data, and says that the figures "
+    "are missing") {
     const test::TemporaryDirectory folder;
     const PathVariable path(folder.path());
     const Report made = report();
@@ -24,7 +23,7 @@ TEST_CASE(
     for (const auto& [name, content] : made.files) CHECK_FALSE(name.ends_with(".svg"));
 }
 
-TEST_CASE("a failing gnuplot is reported once", "[report][page]") {
+TEST_CASE("a failing gnuplot is reported once") {
     const test::TemporaryDirectory folder;
     write_gnuplot(folder, "echo 'no <terminal>' >&2; exit 2");
     const PathVariable path(folder.path());

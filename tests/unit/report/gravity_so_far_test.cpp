@@ -9,8 +9,7 @@
 namespace a351::corrector::report {
 namespace {
 
-TEST_CASE("a remark on two set-ups of a stay is said once, with the larger numbers",
-          "[report][so_far]") {
+TEST_CASE("a remark on two set-ups of a stay is said once, with the larger numbers") {
     GravitySoFar so_far;
     so_far.read.emplace();
     so_far.result.emplace();
@@ -41,7 +40,7 @@ TEST_CASE("a remark on two set-ups of a stay is said once, with the larger numbe
           "name and reference are right|");
 }
 
-TEST_CASE("u of a stay is that of the mean of its set-ups", "[report][so_far]") {
+TEST_CASE("u of a stay is that of the mean of its set-ups") {
     // A station with u = 1 and placement = 2 mGal: two set-ups in its first stay, three in its second.
     constexpr double kStation_mgal = 1.0, kPlacement_mgal = 2.0, kCount = 5.0;
     GravitySoFar so_far;

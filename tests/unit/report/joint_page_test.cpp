@@ -43,8 +43,7 @@ std::string page_of(const std::vector<JointDay>& days, const std::string& reason
 
 }  // namespace
 
-TEST_CASE("the scatter from day to day is given with the value expected from u",
-          "[report][joint]") {
+TEST_CASE("the scatter from day to day is given with the value expected from u") {
     const auto scatter = scatter_of({day_with("S4", 0.0), day_with("S4", 4.0)}).value();
     CHECK(scatter.dof == 8);                                  // eight stations, twice
     CHECK(scatter.rms_mgal == Approx(std::sqrt(8.0 / 8.0)));  // -2 and 2 at one of them
@@ -52,7 +51,7 @@ TEST_CASE("the scatter from day to day is given with the value expected from u",
     CHECK_FALSE(scatter_of({day_with("S4", 0.0)}).has_value());
 }
 
-TEST_CASE("the expected scatter leaves out what the days share, with its sign", "[report][joint]") {
+TEST_CASE("the expected scatter leaves out what the days share, with its sign") {
     std::vector<SurveyCorrection> days{day_with("S4", 0.0), day_with("S4", 0.0)};
     const auto expected = [&days](double shared_a, double shared_b) {
         for (std::size_t k = 0; k < 2; ++k)
@@ -66,8 +65,7 @@ TEST_CASE("the expected scatter leaves out what the days share, with its sign", 
     CHECK(expected(0.9, -0.9) == Approx(std::sqrt(1.5 * 1.5 + 0.81)));
 }
 
-TEST_CASE("the joint page lists every day, the differences, and the reason for a missing day",
-          "[report][joint]") {
+TEST_CASE("the joint page lists every day, the differences, and the reason for a missing day") {
     const SurveyCorrection first = day_with("S4", 0.0);
     const SurveyCorrection second = day_with("S4", 4.0);
     const std::string html = page_of({{"mon <1>/a", "mon <1>-a", &first},
@@ -101,8 +99,7 @@ TEST_CASE("the joint page lists every day, the differences, and the reason for a
     CHECK(is_found);
 }
 
-TEST_CASE("the joint page says which stations to trust and to repeat over the days",
-          "[report][joint]") {
+TEST_CASE("the joint page says which stations to trust and to repeat over the days") {
     SurveyCorrection first = day_with("S4", 0.0);
     SurveyCorrection second = day_with("S4", 7.0);  // 7 / (1.5 sqrt(2)) = 3.3
     const auto to_repeat = [](SurveyCorrection& day, const std::string& site) {

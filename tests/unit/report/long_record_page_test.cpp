@@ -34,8 +34,7 @@ RecordResult night(bool is_raw) {
 
 }  // namespace
 
-TEST_CASE("the page of a long record is well-formed and has the publication's figures",
-          "[report][long_record]") {
+TEST_CASE("the page of a long record is well-formed and has the publication's figures") {
     for (const bool is_raw : {true, false}) {
         const RecordResult result = night(is_raw);
         const Report page = make_long_record_page(result, {{"command", "record"}}, {});

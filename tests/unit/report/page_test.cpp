@@ -18,8 +18,7 @@ void collect_ids(const pugi::xml_node& node, std::multiset<std::string>& ids) {
 
 }  // namespace
 
-TEST_CASE("the report is well-formed and self-contained, whatever names it contains",
-          "[report][page]") {
+TEST_CASE("the report is well-formed and self-contained, whatever names it contains") {
     const Report made = report();
     const std::string html = file(made, "report.html");
     pugi::xml_document document;
@@ -39,11 +38,9 @@ TEST_CASE("the report is well-formed and self-contained, whatever names it conta
                          !ContainsSubstring("not twice"));
 }
 
-TEST_CASE("the same survey gives the same report", "[report][page]") {
-    CHECK(report().files == report().files);
-}
+TEST_CASE("the same survey gives the same report") { CHECK(report().files == report().files); }
 
-TEST_CASE("the contents link to every section of the page", "[report][page]") {
+TEST_CASE("the contents link to every section of the page") {
     pugi::xml_document document;
     REQUIRE(document.load_string(file(report(), "report.html").c_str()));
     std::vector<std::string> links, sections;
@@ -55,8 +52,7 @@ TEST_CASE("the contents link to every section of the page", "[report][page]") {
     CHECK(links.size() >= 5);
 }
 
-TEST_CASE("the caption of each table and figure with errors says of which kind they are",
-          "[report][page]") {
+TEST_CASE("the caption of each table and figure with errors says of which kind they are") {
     pugi::xml_document document;
     REQUIRE(document.load_string(file(report(), "report.html").c_str()));
     const std::regex errors(
@@ -80,8 +76,7 @@ TEST_CASE("the caption of each table and figure with errors says of which kind t
     CHECK(checked >= 5);
 }
 
-TEST_CASE("an HTML table has one column for each alignment letter and escapes its cells",
-          "[report][page]") {
+TEST_CASE("an HTML table has one column for each alignment letter and escapes its cells") {
     const Page page("");
     add_table(page.body(), "u & v", "lr", {"a", "b"}, {{"<1>", ""}});
     CHECK_THAT(

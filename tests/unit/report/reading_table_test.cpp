@@ -58,8 +58,8 @@ SurveyCorrection corrected_by_day(const DayRecord& day) {
 
 }  // namespace
 
-TEST_CASE("the corrections of the whole-day model add up to the corrected value, with the constant",
-          "[report][readings]") {
+TEST_CASE(
+    "the corrections of the whole-day model add up to the corrected value, with the constant") {
     pugi::xml_document document;
     add_corrections(document.append_child("body"), corrected_by_day(kScattered.record()));
     const std::string caption = document.select_node("//figcaption").node().child_value();
@@ -79,8 +79,7 @@ TEST_CASE("the corrections of the whole-day model add up to the corrected value,
     CHECK(mean == Approx(0.0).margin(0.01));
 }
 
-TEST_CASE("t of the whole-day model is the error with the station left out over its u",
-          "[report][readings]") {
+TEST_CASE("t of the whole-day model is the error with the station left out over its u") {
     for (auto line : readings_of(corrected_by_day(kScattered.record()))) {
         const auto value = [&line](const char* title) { return std::stod(line.at(title)); };
         // All but t are rounded to 0.1.
@@ -89,7 +88,7 @@ TEST_CASE("t of the whole-day model is the error with the station left out over 
     }
 }
 
-TEST_CASE("the table of the whole-day model shows which time it averages", "[report][readings]") {
+TEST_CASE("the table of the whole-day model shows which time it averages") {
     DayRecord day = kScattered.record();
     std::erase_if(day.bins, [](const DayBin& bin) {
         return bin.set_up == 2 && bin.time < MadeUpDay::start() + std::chrono::minutes(183);
@@ -102,14 +101,14 @@ TEST_CASE("the table of the whole-day model shows which time it averages", "[rep
     CHECK(lines[2].at("Min used") == "8.3");
 }
 
-TEST_CASE("a table of given averages has no columns of records", "[report][readings]") {
+TEST_CASE("a table of given averages has no columns of records") {
     const auto lines = readings_of(correct_survey(made_up::day(), {.model = "t"}));
     REQUIRE(lines.size() == 12);
     for (const char* const title : {"Averaged UTC", "Min used", "Left out"})
         CHECK_FALSE(lines[0].contains(title));
 }
 
-TEST_CASE("an occupation without a value is listed in time order", "[report][readings]") {
+TEST_CASE("an occupation without a value is listed in time order") {
     SurveyCorrection result = correct_survey(made_up::day(), {.model = "t"});
     const UtcTime start = result.rows[2].row.time - std::chrono::minutes(9);
     add_left_out(result, {{"S9", 2, start, start, "no samples"}});

@@ -34,7 +34,7 @@ std::string summary_text(const SurveyCorrection& result, std::size_t warning_cou
 
 }  // namespace
 
-TEST_CASE("the scatter is given with its own standard error", "[report][summary]") {
+TEST_CASE("the scatter is given with its own standard error") {
     model::Score score;
     score.row_count = 16;
     score.parameter_count = 2;
@@ -49,14 +49,13 @@ TEST_CASE("the scatter is given with its own standard error", "[report][summary]
     CHECK_THAT(scatter_sentence(score), ContainsSubstring("say nothing about accuracy"));
 }
 
-TEST_CASE("the answer shows missing figures, and how many warnings there are",
-          "[report][summary]") {
+TEST_CASE("the answer shows missing figures, and how many warnings there are") {
     const std::string html = summary_text(corrected(scattered_day()), 1, {"figures <missing>"});
     CHECK_THAT(html, ContainsSubstring("Remarks and warnings: 1,") &&
                          ContainsSubstring("figures &lt;missing&gt;"));
 }
 
-TEST_CASE("a proposed amendment keeps its lines and characters", "[report][summary]") {
+TEST_CASE("a proposed amendment keeps its lines and characters") {
     SurveyCorrection result = corrected(scattered_day());
     Finding finding;
     finding.text = "a <step>";
@@ -67,8 +66,7 @@ TEST_CASE("a proposed amendment keeps its lines and characters", "[report][summa
                    ContainsSubstring("<pre>[[step]]\nreason = \"S1 &amp; S2\"\n</pre>"));
 }
 
-TEST_CASE("the stations of a network count as unknowns, not as coefficients of its readings",
-          "[report][summary]") {
+TEST_CASE("the stations of a network count as unknowns, not as coefficients of its readings") {
     const SurveyCorrection result = correct_survey(scattered_day(), {.model = "network"});
     // 12 readings, 8 datum and a prior of the scale for 8 stations, constant, drift, temperature,
     // scale.
@@ -82,7 +80,7 @@ TEST_CASE("the stations of a network count as unknowns, not as coefficients of i
                           "degrees of freedom: 9."));
 }
 
-TEST_CASE("a prior adds a degree of freedom", "[report][summary]") {
+TEST_CASE("a prior adds a degree of freedom") {
     SurveyOptions options{.model = "t-rate-drift"};
     set_prior(options.priors, "test", "rate_mgal_per_degc_per_h", {10.0, 6.0});
     const SurveyCorrection result = correct_survey(scattered_day(), options);

@@ -27,7 +27,7 @@ std::vector<ReadingGrade> all_good(const SurveyCorrection& result) {
 
 }  // namespace
 
-TEST_CASE("a value has one digit more than the first of its uncertainty", "[result][answer]") {
+TEST_CASE("a value has one digit more than the first of its uncertainty") {
     CHECK(text::decimals_for(1.5) == 1);
     CHECK(text::decimals_for(0.94) == 2);
     CHECK(text::decimals_for(10.0) == 0);
@@ -37,8 +37,7 @@ TEST_CASE("a value has one digit more than the first of its uncertainty", "[resu
 }
 
 TEST_CASE(
-    "the answer gives the error of a station left out, and says so if nothing is to be repeated",
-    "[result][answer]") {
+    "the answer gives the error of a station left out, and says so if nothing is to be repeated") {
     SurveyCorrection result = scattered_day();
     for (StationValue& station : result.stations) {
         station.left_out = station.reference;
@@ -69,8 +68,7 @@ TEST_CASE(
     CHECK_THAT(answer(result, all_good(result)), StartsWith("One station; this model"));
 }
 
-TEST_CASE("the answer names what to repeat, first where a station has no other reading to trust",
-          "[result][answer]") {
+TEST_CASE("the answer names what to repeat, first where a station has no other reading to trust") {
     SurveyCorrection result = scattered_day();
     LeftOut stay;
     stay.site = "S9";
@@ -93,7 +91,7 @@ TEST_CASE("the answer names what to repeat, first where a station has no other r
     CHECK(table.rows[2].back() == "trust");
 }
 
-TEST_CASE("the answer says to look at findings first, but not at remarks", "[result][answer]") {
+TEST_CASE("the answer says to look at findings first, but not at remarks") {
     SurveyCorrection result = scattered_day();
     result.findings = {{.kind = FindingKind::short_stay}};
     CHECK_THAT(answer(result, all_good(result)), EndsWith("Nothing to repeat."));
@@ -111,7 +109,7 @@ TEST_CASE("the answer says to look at findings first, but not at remarks", "[res
                StartsWith("8 stations, but this day cannot be used as it is."));
 }
 
-TEST_CASE("u is that of the scatter if the readings scatter more than stated", "[result][answer]") {
+TEST_CASE("u is that of the scatter if the readings scatter more than stated") {
     SurveyCorrection result = scattered_day();
     for (StationValue& station : result.stations) {
         station.u_gravity = MilliGal(0.5);
@@ -144,7 +142,7 @@ TEST_CASE("u is that of the scatter if the readings scatter more than stated", "
     CHECK(table().headings[3] != "u mGal");
 }
 
-TEST_CASE("the difference of a station is measured minus reference", "[result][answer]") {
+TEST_CASE("the difference of a station is measured minus reference") {
     SurveyCorrection result = scattered_day();
     StationValue& station = result.stations[1];
     station.left_out = *station.reference + MilliGal(3.0);
@@ -158,15 +156,14 @@ TEST_CASE("the difference of a station is measured minus reference", "[result][a
     CHECK(std::stod(table.rows[1][4]) == -2.0);
 }
 
-TEST_CASE("a station with one reading and no reference is named, because nothing checks it",
-          "[result][answer]") {
+TEST_CASE("a station with one reading and no reference is named, because nothing checks it") {
     SurveyCorrection result = scattered_day();
     for (StationValue& station : result.stations) station.reference.reset();
     CHECK_THAT(notes(result, all_good(result)).back(),
                EndsWith("nothing checks them: S1, S4, S5, S6, S7."));
 }
 
-TEST_CASE("findings keep their numbers in the text, and no line is too long", "[result][answer]") {
+TEST_CASE("findings keep their numbers in the text, and no line is too long") {
     SurveyCorrection result = scattered_day();
     std::string words;
     for (int i = 0; i < 60; ++i) words += "word ";

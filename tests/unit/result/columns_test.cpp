@@ -37,7 +37,7 @@ std::string header(const SurveyCorrection& result) {
 
 }  // namespace
 
-TEST_CASE("the table of occupations has columns only for what is known", "[result][columns]") {
+TEST_CASE("the table of occupations has columns only for what is known") {
     SurveyCorrection result = one_row();
     CorrectedRow& row = result.rows.front();
     CHECK(header(result) == kHead + kTail);
@@ -59,8 +59,7 @@ TEST_CASE("the table of occupations has columns only for what is known", "[resul
 }
 
 TEST_CASE(
-    "a cell has six decimals in CSV and all digits in JSON, and is empty or null without a value",
-    "[result][columns]") {
+    "a cell has six decimals in CSV and all digits in JSON, and is empty or null without a value") {
     CHECK(csv_text(cell(1.0 / 3.0)) == "0.333333");
     CHECK(json_value(cell(1.0 / 3.0)) == 1.0 / 3.0);
     CHECK(csv_text(Cell(true)) == "1");
@@ -72,8 +71,7 @@ TEST_CASE(
     CHECK(csv_text(cell(UtcTime{})) == "1970-01-01T00:00:00.000Z");
 }
 
-TEST_CASE("values of one model are in its columns, which are empty for others",
-          "[result][columns]") {
+TEST_CASE("values of one model are in its columns, which are empty for others") {
     SurveyCorrection result = one_row();
     result.rows.front().own = PaperRow{MilliGal(979859.533), MilliGal(0.677)};
     const auto of_paper = json_object(occupation_columns(result), result.rows.front());
@@ -84,8 +82,7 @@ TEST_CASE("values of one model are in its columns, which are empty for others",
     CHECK(of_other["corrected1_mgal"].is_null());
 }
 
-TEST_CASE("a table for people has headings, decimals, and only columns with a value",
-          "[result][columns]") {
+TEST_CASE("a table for people has headings, decimals, and only columns with a value") {
     struct Row {
         const char* name;
         double mgal;

@@ -54,8 +54,7 @@ SurveyCorrection small_survey() {
 }  // namespace
 
 TEST_CASE(
-    "stations are exported as points with altitude and a longitude from -180 to 180 degrees east",
-    "[survey][export]") {
+    "stations are exported as points with altitude and a longitude from -180 to 180 degrees east") {
     const std::string text = stations_geojson(small_survey(), kSites);
     CHECK(text ==
           R"({"type": "FeatureCollection", "features": [
@@ -71,8 +70,7 @@ TEST_CASE(
     CHECK(nlohmann::json::parse(text)["features"].size() == 2);
 }
 
-TEST_CASE("GSadjust gets the value before the drift step, and the tide correction to be added",
-          "[survey][export]") {
+TEST_CASE("GSadjust gets the value before the drift step, and the tide correction to be added") {
     const std::string csv = gsadjust_csv(small_survey(), kSites);
     CHECK(csv ==
           "station,latitude_deg,longitude_deg,altitude_m,gravity_mgal,sd_mgal,tilt_x,tilt_y,"
@@ -88,8 +86,7 @@ TEST_CASE("GSadjust gets the value before the drift step, and the tide correctio
           "09:08:07,0,0,05/01/2020\n");
 }
 
-TEST_CASE("GSadjust gets readings corrected for tilt, but not for flicker and drift",
-          "[survey][export]") {
+TEST_CASE("GSadjust gets readings corrected for tilt, but not for flicker and drift") {
     SurveyCorrection result = small_survey();
     result.rows.front().tilt_correction = MilliGal(2.0);
     result.rows.front().corrected =

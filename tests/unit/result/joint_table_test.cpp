@@ -22,8 +22,7 @@ SurveyCorrection day_with(double gravity_mgal, std::optional<double> u_mgal) {
 
 }  // namespace
 
-TEST_CASE("without an adjustment the surveys are side by side, and no value is joint",
-          "[survey][joint]") {
+TEST_CASE("without an adjustment the surveys are side by side, and no value is joint") {
     SurveyCorrection first = day_with(979901.0, 1.0), second = day_with(979904.0, std::nullopt);
     StationValue other = first.stations.front();
     other.site = "B";
@@ -47,8 +46,7 @@ TEST_CASE("without an adjustment the surveys are side by side, and no value is j
     CHECK(table.rows[1][6] == "979901.0 +- 1.0 *");
 }
 
-TEST_CASE("the value of a survey is that without the own reference, if the model gives it",
-          "[survey][joint]") {
+TEST_CASE("the value of a survey is that without the own reference, if the model gives it") {
     StationValue station = day_with(979901.0, 1.0).stations.front();
     CHECK(day_value(station).gravity.value() == 979901.0);
     CHECK(day_value(station).is_in_sample);
@@ -65,8 +63,7 @@ TEST_CASE("the value of a survey is that without the own reference, if the model
     CHECK(day_value(station).is_in_sample);
 }
 
-TEST_CASE("two days share the errors of the unit and of the references that both hold",
-          "[survey][joint]") {
+TEST_CASE("two days share the errors of the unit and of the references that both hold") {
     StationValue a, b;
     CHECK(covariance_mgal2(a, b) == 0.0);
     a.shared = SharedErrors{{0.6, 0.0, 0.0, 0.0, -0.2, 0.0, 0.0, 0.0}, false, {{"C", 0.5}}};
@@ -78,8 +75,7 @@ TEST_CASE("two days share the errors of the unit and of the references that both
     CHECK(covariance_mgal2(a, b) == Approx(0.5 * 0.4));
 }
 
-TEST_CASE("an adjustment gives the joint values, except of stations with marked readings only",
-          "[survey][joint]") {
+TEST_CASE("an adjustment gives the joint values, except of stations with marked readings only") {
     SurveyCorrection day = day_with(979901.0, 1.0);
     StationValue other = day.stations.front();
     other.site = "B";

@@ -11,8 +11,7 @@ using namespace a351::corrector;
 using namespace a351::corrector::model;
 using namespace a351::corrector::result;
 
-TEST_CASE("Table 2 of the publication comes out with its columns, errors and their rms",
-          "[result][paper]") {
+TEST_CASE("Table 2 of the publication comes out with its columns, errors and their rms") {
     const SurveyCorrection result =
         correct_survey(tsukuba::with_recovered_temperature(), {.model = "paper"});
     REQUIRE(is_paper(result));

@@ -43,14 +43,14 @@ std::size_t file_count(const std::filesystem::path& folder) {
 
 }  // namespace
 
-TEST_CASE("numbers are written in fixed form, never as minus zero", "[survey][result]") {
+TEST_CASE("numbers are written in fixed form, never as minus zero") {
     CHECK(text::fixed(979860.21, 3) == "979860.210");
     CHECK(text::fixed(-0.0001, 3) == "0.000");
     CHECK(text::fixed(-0.0006, 3) == "-0.001");
     CHECK(text::fixed(1e6, 0) == "1000000");
 }
 
-TEST_CASE("the tables have the documented columns and one line per item", "[survey][result]") {
+TEST_CASE("the tables have the documented columns and one line per item") {
     const SurveyCorrection result = corrected("t-rate");
     const auto occupations = text::CsvTable::parse(occupations_csv(result), "occupations.csv");
     CHECK(occupations_csv(result).starts_with(
@@ -101,7 +101,7 @@ TEST_CASE("the tables have the documented columns and one line per item", "[surv
     }
 }
 
-TEST_CASE("an occupation without a value is listed with the grade repeat", "[survey][result]") {
+TEST_CASE("an occupation without a value is listed with the grade repeat") {
     SurveyCorrection result = corrected("t-rate");
     const UtcTime start = result.rows[2].row.time - std::chrono::minutes(9);
     add_left_out(result, {{"S9", 2, start, start, "no samples"}});
@@ -113,7 +113,7 @@ TEST_CASE("an occupation without a value is listed with the grade repeat", "[sur
     CHECK(occupations.cell(2, "grade_reason") == "no samples");
 }
 
-TEST_CASE("the text says for every RMS whether it is in sample", "[survey][result]") {
+TEST_CASE("the text says for every RMS whether it is in sample") {
     for (const std::string model : {"auto", "paper", "t"}) {
         const std::string text = survey_text(corrected(model), true);
         for (std::size_t at = text.find("RMS"); at != std::string::npos;
@@ -126,8 +126,7 @@ TEST_CASE("the text says for every RMS whether it is in sample", "[survey][resul
     }
 }
 
-TEST_CASE("the JSON holds settings, inputs, both RMS of the paper and every row",
-          "[survey][result]") {
+TEST_CASE("the JSON holds settings, inputs, both RMS of the paper and every row") {
     const test::TemporaryDirectory folder;
     // CRC-32 of "123456789", the check value of the Rocksoft model.
     const text::InputFile input = text::describe_input("sites", folder.write("s.csv", "123456789"));
@@ -151,12 +150,12 @@ TEST_CASE("the JSON holds settings, inputs, both RMS of the paper and every row"
     CHECK(json["models"].size() == 10);
 }
 
-TEST_CASE("the same rows give result files with the same bytes", "[survey][result]") {
+TEST_CASE("the same rows give result files with the same bytes") {
     const auto write = [] { return result_files(corrected("auto"), {{"model", "auto"}}, {}, {}); };
     CHECK(write() == write());
 }
 
-TEST_CASE("files are written together or not at all", "[survey][result]") {
+TEST_CASE("files are written together or not at all") {
     const test::TemporaryDirectory folder;
     const auto out = folder.path() / "a" / "b";
     text::write_together(out, {{"x.csv", "1"}, {"y.csv", "2"}});

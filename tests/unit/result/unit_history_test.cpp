@@ -25,7 +25,7 @@ model::SurveyCorrection day_of(const std::string& date, double constant_mgal) {
 
 }  // namespace
 
-TEST_CASE("days of several units are listed by unit and time", "[result][history]") {
+TEST_CASE("days of several units are listed by unit and time") {
     const auto of_b = day_of("2026-05-01", 10.0), late = day_of("2026-06-02", 13.0),
                early = day_of("2026-05-02", 11.0);
     const std::vector<UnitDay> days =
@@ -54,8 +54,7 @@ TEST_CASE("days of several units are listed by unit and time", "[result][history
     CHECK_FALSE(terms[2].scatter.has_value());
 }
 
-TEST_CASE("a day of another model, or of a unit that is not known, is in no history",
-          "[result][history]") {
+TEST_CASE("a day of another model, or of a unit that is not known, is in no history") {
     const auto day = day_of("2026-05-01", 10.0);
     auto linear = day;
     linear.own = std::monostate();

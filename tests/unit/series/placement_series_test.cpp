@@ -71,8 +71,7 @@ std::string refusal_of(const OccupationRows& read) {
 
 }  // namespace
 
-TEST_CASE("the limits of the placement contain the truth as often as they say",
-          "[survey][placement]") {
+TEST_CASE("the limits of the placement contain the truth as often as they say") {
     int within = 0, count = 0;
     double squares = 0.0;
     for (const double truth : {0.6, 1.2, 2.4})
@@ -93,7 +92,7 @@ TEST_CASE("the limits of the placement contain the truth as often as they say",
     CHECK(rms < 0.3);
 }
 
-TEST_CASE("two series of a unit give narrower limits than one", "[survey][placement]") {
+TEST_CASE("two series of a unit give narrower limits than one") {
     const PlacementSeries one = measure_placement(repeated(20, {1.2, 1.2, 0.2}, 5), {}, "one");
     const PlacementSeries other = measure_placement(repeated(20, {1.2, 1.2, 0.2}, 6), {}, "other");
     const unit::Placement both = combine({one, other});
@@ -106,8 +105,7 @@ TEST_CASE("two series of a unit give narrower limits than one", "[survey][placem
     CHECK(both.mgal < 1.1 * high);
 }
 
-TEST_CASE("a series that does not show the placement is refused with the reason",
-          "[survey][placement]") {
+TEST_CASE("a series that does not show the placement is refused with the reason") {
     OccupationRows read = repeated(8, {1.2, 1.2, 0.2}, 1);
     CHECK(refusal_of(read) == "accepted");
     read.rows.back().is_flagged = true;
@@ -122,7 +120,7 @@ TEST_CASE("a series that does not show the placement is refused with the reason"
     CHECK_THAT(refusal_of(read), ContainsSubstring("monday: placement: needs the record"));
 }
 
-TEST_CASE("a measured placement is the prior of a day", "[survey][placement]") {
+TEST_CASE("a measured placement is the prior of a day") {
     unit::Calibration calibration;
     calibration.placement = unit::Placement{0.5, 0.49, 0.51};
     CHECK(model::helps_to_correct_day(calibration));

@@ -79,7 +79,7 @@ std::string refusal_of_tilts(const OccupationRows& read) {
 
 }  // namespace
 
-TEST_CASE("a tilt series gives the biases it was made with", "[survey][tilt_series]") {
+TEST_CASE("a tilt series gives the biases it was made with") {
     const TiltSeries found = measure_axis_bias(tilted_series(kThereAndBack), "tilt");
     CHECK(found.set_ups == 12);
     // The margin covers 0.01 mGal of noise and the small error of the bias of z.
@@ -88,7 +88,7 @@ TEST_CASE("a tilt series gives the biases it was made with", "[survey][tilt_seri
     CHECK(found.greatest_tilt_deg[0] == Approx(2.0).margin(0.1));
 }
 
-TEST_CASE("without the site's gravity the biases are the same", "[survey][tilt_series]") {
+TEST_CASE("without the site's gravity the biases are the same") {
     OccupationRows read = tilted_series(kThereAndBack);
     for (SurveyRow& row : read.rows) row.reference.reset();
     const TiltSeries found = measure_axis_bias(read, "tilt");
@@ -96,7 +96,7 @@ TEST_CASE("without the site's gravity the biases are the same", "[survey][tilt_s
     CHECK(found.bias.values(1) == Approx(kBiases_mgal(1)).margin(2.0));
 }
 
-TEST_CASE("the scatter of set-ups becomes the error of the biases", "[survey][tilt_series]") {
+TEST_CASE("the scatter of set-ups becomes the error of the biases") {
     const TiltSeries found = measure_axis_bias(tilted_series(kThereAndBack, 1.2), "tilt");
     // 1.2 mGal over four set-ups at 2 degrees each: 1.2 / (0.0349 sqrt 4) = 17.
     CHECK(std::sqrt(found.bias.covariance(0, 0)) == Approx(17.0).epsilon(0.4));
@@ -109,7 +109,7 @@ TEST_CASE("the scatter of set-ups becomes the error of the biases", "[survey][ti
     CHECK(twice.covariance == twice.covariance.transpose());
 }
 
-TEST_CASE("a flagged set-up is not used", "[survey][tilt_series]") {
+TEST_CASE("a flagged set-up is not used") {
     OccupationRows read = tilted_series(kThereAndBack);
     read.rows[3].is_flagged = true;
     for (DayBin& bin : read.day->bins)
@@ -119,8 +119,7 @@ TEST_CASE("a flagged set-up is not used", "[survey][tilt_series]") {
     CHECK(found.bias.values(1) == Approx(kBiases_mgal(1)).margin(2.0));
 }
 
-TEST_CASE("a tilt series that does not determine the biases is refused with the reason",
-          "[survey][tilt_series]") {
+TEST_CASE("a tilt series that does not determine the biases is refused with the reason") {
     CHECK_THAT(refusal_of_tilts(tilted_series({{0, 0}, {2, 0}, {-2, 0}, {0, 2}, {0, -2}})),
                ContainsSubstring("tilt: tilt series: 5 set-ups; allowed: 6 or more"));
     CHECK_THAT(refusal_of_tilts(tilted_series({{0, 0}, {2, 0}, {-2, 0}, {2, 0}, {-2, 0}, {0, 0}})),

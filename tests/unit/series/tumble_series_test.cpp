@@ -101,7 +101,7 @@ std::string refusal_of_tumble(const OccupationRows& read) {
 
 }  // namespace
 
-TEST_CASE("without noise a tumble gives the sensor it was made with", "[survey][tumble]") {
+TEST_CASE("without noise a tumble gives the sensor it was made with") {
     std::mt19937_64 random(1);
     Truth truth = drawn(random);
     truth.bias = {20000.0, -20000.0, 1838.0};
@@ -120,8 +120,7 @@ TEST_CASE("without noise a tumble gives the sensor it was made with", "[survey][
           Approx(truth.bias(0) + truth.angle(1) * kTumbledGravity_mgal).margin(0.2));
 }
 
-TEST_CASE("in twenty tumbles the limits contain the truth of each term in seventeen",
-          "[survey][tumble]") {
+TEST_CASE("in twenty tumbles the limits contain the truth of each term in seventeen") {
     constexpr int kTumbles = 20, kLeast = 17;
     std::array<std::array<int, 4>, 3> within{};
     int slopes = 0, biases = 0;
@@ -154,8 +153,7 @@ TEST_CASE("in twenty tumbles the limits contain the truth of each term in sevent
 }
 
 TEST_CASE(
-    "six positions give the scale between up and down and leave the quadratic term to the prior",
-    "[survey][tumble]") {
+    "six positions give the scale between up and down and leave the quadratic term to the prior") {
     int within = 0, slopes = 0;
     for (std::uint64_t seed = 101; seed <= 120; ++seed) {
         std::mt19937_64 random(seed);
@@ -182,8 +180,7 @@ TEST_CASE(
                 within, slopes);
 }
 
-TEST_CASE("tumbles at three temperatures give the changes of bias and scale with right errors",
-          "[survey][tumble]") {
+TEST_CASE("tumbles at three temperatures give the changes of bias and scale with right errors") {
     const int units = test::is_long() ? 100 : 20;
     const double most_off = test::is_long() ? 0.15 : 0.35;  // two standard errors of a ratio
     Eigen::Array4d squares = Eigen::Array4d::Zero();
@@ -227,8 +224,7 @@ TEST_CASE("tumbles at three temperatures give the changes of bias and scale with
         units, ratios(0), ratios(1), ratios(2), ratios(3), std::sqrt(of_share / units), u_share);
 }
 
-TEST_CASE("a wrong gravity within its uncertainty is within that of the scale",
-          "[survey][tumble]") {
+TEST_CASE("a wrong gravity within its uncertainty is within that of the scale") {
     std::mt19937_64 random(1);
     const Truth truth = drawn(random);
     OccupationRows read = tumbled(truth, directions(true), random);
@@ -241,7 +237,7 @@ TEST_CASE("a wrong gravity within its uncertainty is within that of the scale",
     CHECK(is_within(found.axes[0].scale, truth.scale(0)));
 }
 
-TEST_CASE("positions that disagree enlarge the limits", "[survey][tumble]") {
+TEST_CASE("positions that disagree enlarge the limits") {
     // The last one is that of a sensor of the kind in a telephone.
     const double noise_mgal = GENERATE(50.0, 12000.0);
     INFO("noise " << noise_mgal << " mGal");
@@ -262,7 +258,7 @@ TEST_CASE("positions that disagree enlarge the limits", "[survey][tumble]") {
     CHECK(std::sqrt(residuals) == Approx(1.0).margin(0.2));
 }
 
-TEST_CASE("a tumble that cannot be measured is refused with the reason", "[survey][tumble]") {
+TEST_CASE("a tumble that cannot be measured is refused with the reason") {
     std::mt19937_64 random(1);
     const Truth truth = drawn(random);
     const OccupationRows good = tumbled(truth, directions(false), random);

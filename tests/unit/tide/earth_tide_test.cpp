@@ -14,7 +14,7 @@ const tide::Station kStation{Degrees(36.216), Degrees(140.123), Metres(532.0)};
 
 }  // namespace
 
-TEST_CASE("the tide is linear in its two factors", "[tide]") {
+TEST_CASE("the tide is linear in its two factors") {
     const double degree2 = direct_tide(kTime, kStation, {1.0, 0.0}).value();
     const double degree3 = direct_tide(kTime, kStation, {0.0, 1.0}).value();
     CHECK(direct_tide(kTime, kStation, {1.16, 1.07}).value() ==
@@ -22,7 +22,7 @@ TEST_CASE("the tide is linear in its two factors", "[tide]") {
     CHECK(std::abs(degree3) < 0.1 * std::abs(degree2) + 0.005);
 }
 
-TEST_CASE("gravity is least where the Moon is overhead", "[tide]") {
+TEST_CASE("gravity is least where the Moon is overhead") {
     // New Moon of 2017-02-26 14:58 UTC, near both nodes and the equator: Moon and Sun pull together
     // and are overhead near local noon, at 0 degrees longitude at 12 UTC.
     const UtcTime noon = parse_rfc3339("2017-02-26T12:00:00Z").value();
@@ -32,7 +32,7 @@ TEST_CASE("gravity is least where the Moon is overhead", "[tide]") {
     CHECK(direct_tide(noon, aside, kRigidEarth).value() > 0.03);
 }
 
-TEST_CASE("360 degrees of longitude more change nothing", "[tide]") {
+TEST_CASE("360 degrees of longitude more change nothing") {
     const tide::Station turned{kStation.latitude, kStation.longitude - Degrees(360.0),
                                kStation.height};
     CHECK(direct_tide(kTime, turned).value() ==
@@ -41,7 +41,7 @@ TEST_CASE("360 degrees of longitude more change nothing", "[tide]") {
           Approx(longman_tide(kTime, kStation).value()).epsilon(0).margin(1e-12));
 }
 
-TEST_CASE("both methods agree within Longman's known error over a month", "[tide]") {
+TEST_CASE("both methods agree within Longman's known error over a month") {
     // 0.0025 mGal: largest deviation of his formulas in this month; over decades see earth_tide.hpp.
     for (int hour = 0; hour < 30 * 24; ++hour) {
         const UtcTime time = kTime + std::chrono::hours(hour);
@@ -51,7 +51,7 @@ TEST_CASE("both methods agree within Longman's known error over a month", "[tide
     }
 }
 
-TEST_CASE("the tide model is chosen by name", "[tide]") {
+TEST_CASE("the tide model is chosen by name") {
     const tide::Factors factors{1.2, 1.2};
     CHECK(earth_tide(tide::Model::none, kTime, kStation, factors) == MilliGal(0.0));
     CHECK(earth_tide(tide::Model::direct, kTime, kStation, factors) ==

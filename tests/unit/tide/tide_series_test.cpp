@@ -53,8 +53,7 @@ std::string cubic_row(std::chrono::minutes after) {
 
 }  // namespace
 
-TEST_CASE("a series reproduces its model within 2e-7 mGal at 10 min, within 2e-4 mGal at 1 h",
-          "[survey][tide_series]") {
+TEST_CASE("a series reproduces its model within 2e-7 mGal at 10 min, within 2e-4 mGal at 1 h") {
     const auto month = 30 * 24h;
     const double inside = largest_error_mgal(sampled_tide(600s, month), kStart, kStart + month);
     const double hourly = largest_error_mgal(sampled_tide(3600s, month), kStart, kStart + month);
@@ -63,8 +62,7 @@ TEST_CASE("a series reproduces its model within 2e-7 mGal at 10 min, within 2e-4
     CHECK(hourly < 2e-4);
 }
 
-TEST_CASE("interpolation of a cubic is exact with unequal steps and at both ends",
-          "[survey][tide_series]") {
+TEST_CASE("interpolation of a cubic is exact with unequal steps and at both ends") {
     std::string rows;
     for (const auto minute : {0min, 10min, 25min, 30min, 75min, 100min}) rows += cubic_row(minute);
     const tide::Series tide = series(rows);
@@ -74,8 +72,7 @@ TEST_CASE("interpolation of a cubic is exact with unequal steps and at both ends
     }
 }
 
-TEST_CASE("there is no value outside the series or in a gap, but there is one beside a gap",
-          "[survey][tide_series]") {
+TEST_CASE("there is no value outside the series or in a gap, but there is one beside a gap") {
     std::string rows;
     for (const auto minute : {0min, 30min, 60min, 90min, 151min, 180min, 210min, 240min})
         rows += cubic_row(minute);
@@ -87,7 +84,7 @@ TEST_CASE("there is no value outside the series or in a gap, but there is one be
     CHECK(tide.at(kStart + 152min).has_value());
 }
 
-TEST_CASE("a bad series is refused with line, column and value", "[survey][tide_series]") {
+TEST_CASE("a bad series is refused with line, column and value") {
     const auto [rows, message] = GENERATE(table<std::string, std::string>({
         {"2017-07-01T00:00:00,0\n", "tide.csv:2: time = 2017-07-01T00:00:00: not an instant"},
         {"2017-07-01T00:10:00Z,0\n2017-07-01T00:00:00Z,0\n", "tide.csv:3: time = 2017-07-01T00:00"},
@@ -100,7 +97,7 @@ TEST_CASE("a bad series is refused with line, column and value", "[survey][tide_
     CHECK_THROWS_AS(series(rows), InputError);
 }
 
-TEST_CASE("a row that the series does not cover is refused by name", "[survey][tide_series]") {
+TEST_CASE("a row that the series does not cover is refused by name") {
     const test::TemporaryDirectory folder;
     std::string csv = "time,tide_mgal\n";
     for (int hour = 0; hour < 4; ++hour)
@@ -117,8 +114,7 @@ TEST_CASE("a row that the series does not cover is refused by name", "[survey][t
     CHECK(rows[2].tide.value() == Approx(0.05));
 }
 
-TEST_CASE("the tide of a row is that of its middle, the tide of a bin that of the bin",
-          "[survey][tide_series]") {
+TEST_CASE("the tide of a row is that of its middle, the tide of a bin that of the bin") {
     const text::Site site{"A", Degrees(140.0), Degrees(36.0), Metres(10.0), MilliGal(979900.0)};
     SurveyRow row;
     row.site = "A";
@@ -135,7 +131,7 @@ TEST_CASE("the tide of a row is that of its middle, the tide of a bin that of th
     CHECK(rows[0].tide != day.bins[0].tide);
 }
 
-TEST_CASE("the settings name the tide's source, model, factors and sign", "[survey][tide_series]") {
+TEST_CASE("the settings name the tide's source, model, factors and sign") {
     nlohmann::ordered_json settings;
     tide::Choice choice;
     describe_tide(settings, choice);
@@ -185,8 +181,7 @@ TEST_CASE("the settings name the tide's source, model, factors and sign", "[surv
     CHECK_THROWS_WITH(set_tide_option(choice, "moon"), ContainsSubstring("--tide = moon: neither"));
 }
 
-TEST_CASE("a given tide of another sign, time or place is named; another permanent tide is not",
-          "[survey][tide_series]") {
+TEST_CASE("a given tide of another sign, time or place is named; another permanent tide is not") {
     const text::Site site{"A", Degrees(140.0), Degrees(36.0), Metres(10.0), MilliGal(979900.0)};
     const auto doubt = [&site](double factor, Nanoseconds shift, double added_mgal,
                                const std::string& source) {
@@ -212,8 +207,7 @@ TEST_CASE("a given tide of another sign, time or place is named; another permane
                                                        "positions. It is used as it is"));
 }
 
-TEST_CASE("a tide that the survey declares as given must be in the table",
-          "[survey][observations]") {
+TEST_CASE("a tide that the survey declares as given must be in the table") {
     const std::vector<text::Site> sites{
         {"A", Degrees(140.0), Degrees(36.0), Metres(10.0), MilliGal(979900.0)}};
     SurveyRow row;

@@ -19,7 +19,7 @@ double squares(const std::array<double, kErrorSources>& parts_mgal) {
 
 }  // namespace
 
-TEST_CASE("a difference is that of a fit without both references", "[day]") {
+TEST_CASE("a difference is that of a fit without both references") {
     const auto record = kScattered.record();
     const auto stations = MadeUpDay::stations();
     const DayAdjustment system = adjust_day({&record, stations}).value();
@@ -44,7 +44,7 @@ TEST_CASE("a difference is that of a fit without both references", "[day]") {
     CHECK(worst_ratio < 0.1);
 }
 
-TEST_CASE("the correlation of all stations is one of a covariance", "[day]") {
+TEST_CASE("the correlation of all stations is one of a covariance") {
     const auto record = kScattered.record();
     const auto stations = stations_without({3, 9});
     const DayAdjustment system = adjust_day({&record, stations}).value();
@@ -60,7 +60,7 @@ TEST_CASE("the correlation of all stations is one of a covariance", "[day]") {
           Approx(std::sqrt(a * a + b * b - 2.0 * a * b * correlation(3, 9))).epsilon(1e-4));
 }
 
-TEST_CASE("the only reference stays held, and differences do not need it", "[day]") {
+TEST_CASE("the only reference stays held, and differences do not need it") {
     const auto record = kScattered.record();
     auto stations = stations_without({1, 2, 3, 4, 5, 6, 7, 8, 9, 10});
     const DayAdjustment system = adjust_day({&record, stations}).value();
@@ -82,7 +82,7 @@ TEST_CASE("the only reference stays held, and differences do not need it", "[day
           Approx(2.0 / loose.gravity_mgal[4].standard_error).epsilon(1e-3));
 }
 
-TEST_CASE("the sources of an uncertainty add up to it", "[day]") {
+TEST_CASE("the sources of an uncertainty add up to it") {
     const auto record = kScattered.record();
     const FittedDay fit = fit_day(record, stations_without({3, 9})).value();
     for (const std::size_t number : {3U, 9U}) {
@@ -98,7 +98,7 @@ TEST_CASE("the sources of an uncertainty add up to it", "[day]") {
     CHECK(squares(fit.gravity_mgal[0].parts_mgal) == 0.0);
 }
 
-TEST_CASE("a reference with an uncertainty gives way to the readings", "[day]") {
+TEST_CASE("a reference with an uncertainty gives way to the readings") {
     const auto record = kScattered.record();
     auto stations = MadeUpDay::stations();
     constexpr double kWrong_mgal = 20.0;
@@ -115,8 +115,7 @@ TEST_CASE("a reference with an uncertainty gives way to the readings", "[day]") 
     }
 }
 
-TEST_CASE("a gravity follows the references and the scale's prior as its shared errors say",
-          "[day]") {
+TEST_CASE("a gravity follows the references and the scale's prior as its shared errors say") {
     const auto record = kScattered.record();
     auto stations = stations_without({2, 3, 4, 5, 6, 7, 8, 9, 10});
     for (DayStation& station : stations) station.u_gravity = MilliGal(2.0);
@@ -147,7 +146,7 @@ TEST_CASE("a gravity follows the references and the scale's prior as its shared 
     CHECK(answer < -0.1);
 }
 
-TEST_CASE("the errors of the noise cover its scatter", "[day]") {
+TEST_CASE("the errors of the noise cover its scatter") {
     // The same day with other noise: ln(placement / 1.2) in units of its error.
     double sum = 0.0;
     constexpr int kDays = 20;

@@ -12,7 +12,7 @@ const UtcTime kStart = *parse_rfc3339("2026-05-01T00:00:00Z");
 
 }  // namespace
 
-TEST_CASE("bin means are averages of the grid at the times of their samples", "[day]") {
+TEST_CASE("bin means are averages of the grid at the times of their samples") {
     const TimeSeries<DegC> grid(kStart, Hertz(0.5), {0.0, 10.0, 20.0, 30.0});
     DayBin bin;
     bin.times = {kStart + from_seconds(1.0), kStart + from_seconds(4.0)};

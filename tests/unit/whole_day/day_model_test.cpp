@@ -21,7 +21,7 @@ void check_gravities(const DayFit& fit, double margin_mgal) {
 
 }  // namespace
 
-TEST_CASE("the whole-day model finds the parameters of made-up readings", "[day]") {
+TEST_CASE("the whole-day model finds the parameters of made-up readings") {
     const MadeUpDay day;
     const DayRecord record = day.record();
     const auto fit = fit_day(record, MadeUpDay::stations());
@@ -39,7 +39,7 @@ TEST_CASE("the whole-day model finds the parameters of made-up readings", "[day]
     check_gravities(*fit, 0.001);
 }
 
-TEST_CASE("two faces separate what acts on the bias from what acts on the scale", "[day][faces]") {
+TEST_CASE("two faces separate what acts on the bias from what acts on the scale") {
     const MadeUpDay day{.has_two_faces = true, .scale_share = 0.3};
     const DayRecord record = day.record();
     CHECK(has_two_faces(record.bins));
@@ -59,7 +59,7 @@ TEST_CASE("two faces separate what acts on the bias from what acts on the scale"
     check_gravities(*fit, 0.001);
 }
 
-TEST_CASE("a step of a day in two faces is one of the bias", "[day][faces]") {
+TEST_CASE("a step of a day in two faces is one of the bias") {
     const MadeUpDay day{.has_two_faces = true};
     DayRecord record = day.record();
     constexpr std::size_t kFirst = 7;  // after the step; its set-ups are in both faces
@@ -73,7 +73,7 @@ TEST_CASE("a step of a day in two faces is one of the bias", "[day][faces]") {
     check_gravities(*fit, 0.01);
 }
 
-TEST_CASE("reading, flicker and effects of a set-up add up to its corrected value", "[day]") {
+TEST_CASE("reading, flicker and effects of a set-up add up to its corrected value") {
     const bool has_two_faces = GENERATE(false, true);
     const auto fit =
         fit_day(MadeUpDay{.placement_mgal = 1.0, .has_two_faces = has_two_faces}.record(),
@@ -82,8 +82,7 @@ TEST_CASE("reading, flicker and effects of a set-up add up to its corrected valu
         CHECK(corrected_mgal(set_up) == Approx(set_up.corrected.value()).epsilon(1e-12));
 }
 
-TEST_CASE("the stated uncertainty of unknown stations covers their errors as often as it should",
-          "[day]") {
+TEST_CASE("the stated uncertainty of unknown stations covers their errors as often as it should") {
     // Stations 3 and 9 of 40 days with a set-up scatter of 1.2 mGal.
     std::size_t count = 0, within = 0;
     double sum = 0.0;
@@ -109,7 +108,7 @@ TEST_CASE("the stated uncertainty of unknown stations covers their errors as oft
     CHECK(within <= 68);
 }
 
-TEST_CASE("the tide is taken off every bin, and a set-up has the mean of its bins", "[day]") {
+TEST_CASE("the tide is taken off every bin, and a set-up has the mean of its bins") {
     DayRecord record = MadeUpDay{.placement_mgal = 1.0}.record();
     const auto stations = stations_without({5});
     const auto without = fit_day(record, stations);
@@ -131,8 +130,7 @@ TEST_CASE("the tide is taken off every bin, and a set-up has the mean of its bin
     }
 }
 
-TEST_CASE("a planned day has the uncertainties of a measured one of the same unit and noise",
-          "[day]") {
+TEST_CASE("a planned day has the uncertainties of a measured one of the same unit and noise") {
     const auto stations = stations_without({3, 9});  // set-up 14 is at site 3 too
     const DayRecord measured = kScattered.record();
     DayPriors usual = usual_day_priors();
@@ -165,7 +163,7 @@ TEST_CASE("a planned day has the uncertainties of a measured one of the same uni
               Approx(priors.mean(DayPriors::place_of(static_cast<DayTerm>(k)))).margin(1e-3));
 }
 
-TEST_CASE("a measured share of the scale makes a turned day more certain", "[day][faces]") {
+TEST_CASE("a measured share of the scale makes a turned day more certain") {
     const auto u_with = [](const unit::ScaleShare& share, bool has_two_faces) {
         DayRecord record = MadeUpDay{.has_two_faces = has_two_faces}.record();
         const auto stations = stations_without({1, 2, 3, 4, 5, 6, 7, 8, 9, 10});
@@ -180,7 +178,7 @@ TEST_CASE("a measured share of the scale makes a turned day more certain", "[day
     CHECK(u_with(measured, false) == u_with({}, false));
 }
 
-TEST_CASE("a day finds the scale of its sensor, and the unknown stations with it", "[day]") {
+TEST_CASE("a day finds the scale of its sensor, and the unknown stations with it") {
     DayRecord record = MadeUpDay{.white_mgal = 0.01}.record();
     for (DayBin& bin : record.bins)
         bin.reading =
@@ -206,7 +204,7 @@ TEST_CASE("a day finds the scale of its sensor, and the unknown stations with it
     CHECK(held.noise.placement_mgal > 2.0 * fit.noise.placement_mgal);
 }
 
-TEST_CASE("what a day has found of its unit is the prior of the next", "[day]") {
+TEST_CASE("what a day has found of its unit is the prior of the next") {
     const DayRecord record = kScattered.record();
     const DayPriors usual = usual_day_priors();
     const FittedDay fit = fit_day(record, MadeUpDay::stations(), nullptr, usual).value();
@@ -230,7 +228,7 @@ TEST_CASE("what a day has found of its unit is the prior of the next", "[day]") 
     CHECK(found.noise.white_mgal == Approx(fit.noise.white_mgal));
 }
 
-TEST_CASE("set-ups of one unknown station share its value", "[day]") {
+TEST_CASE("set-ups of one unknown station share its value") {
     // Set-ups 2 and 13 are both at the third of eleven stations.
     const auto fit = fit_day(MadeUpDay{.placement_mgal = 1.0}.record(), stations_without({2}));
     const double g = fit.value().gravity_mgal.at(2).value;
@@ -241,12 +239,12 @@ TEST_CASE("set-ups of one unknown station share its value", "[day]") {
     CHECK(std::abs(departure2) > 0.05);
 }
 
-TEST_CASE("the whole-day model is refused without a known station", "[day]") {
+TEST_CASE("the whole-day model is refused without a known station") {
     CHECK_FALSE(
         fit_day(MadeUpDay{}.record(), stations_without({0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10})));
 }
 
-TEST_CASE("a fit that starts from a nearby fit gives the same result", "[day]") {
+TEST_CASE("a fit that starts from a nearby fit gives the same result") {
     const DayRecord record = MadeUpDay{.placement_mgal = 1.0, .white_mgal = 0.2}.record();
     const auto stations = stations_without({5});
     const auto all = fit_day(record, MadeUpDay::stations());
@@ -257,7 +255,7 @@ TEST_CASE("a fit that starts from a nearby fit gives the same result", "[day]") 
           Approx(afar->gravity_mgal.at(5).standard_error).epsilon(0.005));
 }
 
-TEST_CASE("the whole-day fit is bit-identical each time", "[day]") {
+TEST_CASE("the whole-day fit is bit-identical each time") {
     const DayRecord record = MadeUpDay{.placement_mgal = 1.0}.record();
     const auto a = fit_day(record, MadeUpDay::stations()),
                b = fit_day(record, MadeUpDay::stations());
@@ -266,7 +264,7 @@ TEST_CASE("the whole-day fit is bit-identical each time", "[day]") {
         CHECK(a->set_ups[s].corrected == b->set_ups[s].corrected);
 }
 
-TEST_CASE("narrower priors determine what the day does not determine", "[day]") {
+TEST_CASE("narrower priors determine what the day does not determine") {
     // Level and slow slope are known to 2 mGal/degC each and better together, x to 1 mGal/g.
     DayPriors priors = usual_day_priors();
     priors.free_axes();
@@ -294,7 +292,7 @@ TEST_CASE("narrower priors determine what the day does not determine", "[day]") 
     CHECK(std::sqrt(left(slow, slow)) == Approx(coefficient(*fit, DayTerm::slow).standard_error));
 }
 
-TEST_CASE("a prior from an arbitrarily exact measurement is accepted", "[day]") {
+TEST_CASE("a prior from an arbitrarily exact measurement is accepted") {
     const auto x = DayPriors::place_of(DayTerm::x);
     for (const double variance : {1.0, 1e-10, 1e-20}) {
         DayPriors priors = usual_day_priors();
@@ -306,7 +304,7 @@ TEST_CASE("a prior from an arbitrarily exact measurement is accepted", "[day]") 
     }
 }
 
-TEST_CASE("a lag that is correlated with a slope changes together with it", "[day]") {
+TEST_CASE("a lag that is correlated with a slope changes together with it") {
     // The fast lag's logarithm changes by 1 when the slope changes by 10.
     const MadeUpDay day;
     DayPriors priors = usual_day_priors();
@@ -321,7 +319,7 @@ TEST_CASE("a lag that is correlated with a slope changes together with it", "[da
     CHECK(fit->fast_lag_s == Approx(day.fast_lag_s).epsilon(0.01));
 }
 
-TEST_CASE("biases far above the usual size are not taken for placement", "[day]") {
+TEST_CASE("biases far above the usual size are not taken for placement") {
     // The data sheet allows 2 Gal, the day has 20.
     const MadeUpDay day{.x = -14000.0, .placement_mgal = 1.2, .white_mgal = 0.2};
     constexpr double kY_mgal_per_g = 15000.0;

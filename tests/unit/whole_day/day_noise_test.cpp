@@ -1,5 +1,5 @@
-#include "corrector/whole_day/column_filter.hpp"
 #include "corrector/whole_day/day_noise.hpp"
+#include "corrector/whole_day/column_filter.hpp"
 
 #include <Eigen/Cholesky>
 #include <cmath>
@@ -14,7 +14,7 @@ using namespace a351;
 using namespace a351::corrector::reading;
 using namespace a351::corrector::whole_day;
 
-TEST_CASE("the filter whitens like the dense covariance", "[day]") {
+TEST_CASE("the filter whitens like the dense covariance") {
     const double on_scale = GENERATE(0.0, 0.3, 1.0);
     const bool has_two_faces = GENERATE(false, true);
     std::vector<DayBin> bins = MadeUpDay{.has_two_faces = has_two_faces}.record().bins;
@@ -60,7 +60,7 @@ TEMPLATE_TEST_CASE_SIG("the filter has the same bits with any number of lanes", 
     CHECK(filtered(fastest_filter<kStates>()) == filtered(with_two_lanes<kStates>));
 }
 
-TEST_CASE("means of simulated flicker have the covariance of the bins", "[day]") {
+TEST_CASE("means of simulated flicker have the covariance of the bins") {
     // Two bins that follow each other, the second of a third of the length, and one 500 s later.
     constexpr std::array<int, 3> kFirst{0, 25, 275}, kSamples{25, 8, 25};
     std::vector<DayBin> bins(3);
@@ -102,8 +102,8 @@ TEST_CASE("means of simulated flicker have the covariance of the bins", "[day]")
     CHECK(expected(0, 0) < 0.8);                           // a point sample would have 1
 }
 
-TEST_CASE("flicker of the scale keeps its sign over a turn, and a turn leaves an error that decays",
-          "[day][faces]") {
+TEST_CASE(
+    "flicker of the scale keeps its sign over a turn, and a turn leaves an error that decays") {
     std::vector<DayBin> bins(3);
     for (std::size_t b = 0; b < bins.size(); ++b) {
         bins[b].set_up = b;
@@ -128,7 +128,7 @@ TEST_CASE("flicker of the scale keeps its sign over a turn, and a turn leaves an
     CHECK(half(0, 1) == Approx(0.0).margin(1e-12));
 }
 
-TEST_CASE("flicker is 1/f between its first and last period", "[day]") {
+TEST_CASE("flicker is 1/f between its first and last period") {
     // Returns the spectrum of the sum of processes with these corners, times frequency.
     const auto power = [](double period_s) {
         double sum = 0.0;

@@ -32,7 +32,7 @@ std::optional<DayTemperature> of_raw(const std::vector<double>& degc) {
 
 }  // namespace
 
-TEST_CASE("bins contain the mean norm and the mean horizontal axes", "[day]") {
+TEST_CASE("bins contain the mean norm and the mean horizontal axes") {
     const auto bins = bin_set_up(3, decimate_axes(still(400.0)), 8.0);
     REQUIRE(bins.size() == 8);
     for (const DayBin& bin : bins) {
@@ -46,7 +46,7 @@ TEST_CASE("bins contain the mean norm and the mean horizontal axes", "[day]") {
     CHECK(seconds_between(kRecordStart, bins[2].time) == Approx(124.0));
 }
 
-TEST_CASE("a day has two faces if one of its set-ups was turned over", "[day][faces]") {
+TEST_CASE("a day has two faces if one of its set-ups was turned over") {
     std::vector<DayBin> bins;
     for (const std::size_t set_up : {0U, 1U}) {
         const double z_g = set_up == 0 ? 0.999 : -0.999;
@@ -60,7 +60,7 @@ TEST_CASE("a day has two faces if one of its set-ups was turned over", "[day][fa
     CHECK(faces_of(bins, 3) == std::vector{1.0, -1.0, 1.0});
 }
 
-TEST_CASE("samples near a disturbance are left out of the bins", "[day]") {
+TEST_CASE("samples near a disturbance are left out of the bins") {
     OccupationRecord record = still(400.0);
     std::vector<double> z = record.z.values();
     for (std::size_t i = 7400; i < 7500; ++i) z[i] += 0.01;  // 148 to 150 s
@@ -72,7 +72,7 @@ TEST_CASE("samples near a disturbance are left out of the bins", "[day]") {
     }
 }
 
-TEST_CASE("a bin with few samples is left out", "[day]") {
+TEST_CASE("a bin with few samples is left out") {
     OccupationRecord record = still(100.0);
     std::vector<double> z = record.z.values();
     std::fill(z.begin() + 1000, z.begin() + 2600, std::numeric_limits<double>::quiet_NaN());
@@ -82,7 +82,7 @@ TEST_CASE("a bin with few samples is left out", "[day]") {
     CHECK(seconds_between(kRecordStart, bins[0].times.front()) > 60.0);
 }
 
-TEST_CASE("the day's temperature is smooth, and its gaps are bridged", "[day]") {
+TEST_CASE("the day's temperature is smooth, and its gaps are bridged") {
     std::mt19937_64 random(6);
     std::normal_distribution<double> noise(0.0, 0.01);
     std::vector<double> degc(180000);  // an hour
@@ -100,7 +100,7 @@ TEST_CASE("the day's temperature is smooth, and its gaps are bridged", "[day]") 
     }
 }
 
-TEST_CASE("a few minutes of temperature, or none, are too short for a day", "[day]") {
+TEST_CASE("a few minutes of temperature, or none, are too short for a day") {
     CHECK_FALSE(of_raw(std::vector<double>(25000, 42.0)));
     CHECK_FALSE(of_raw(std::vector<double>(90000, std::numeric_limits<double>::quiet_NaN())));
 }

@@ -439,8 +439,7 @@ void compare(const RandomDays& days, bool has_lags, Worst& worst) {
 
 }  // namespace
 
-TEST_CASE("gravities of days, with and without their references, are those of dense matrices",
-          "[day][oracle]") {
+TEST_CASE("gravities of days, with and without their references, are those of dense matrices") {
     Worst worst;
     const std::uint64_t problems = test::is_long() ? 500 : 80;
     for (std::uint64_t seed = 1; seed <= problems; ++seed)
@@ -453,7 +452,7 @@ TEST_CASE("gravities of days, with and without their references, are those of de
     CHECK(worst.u < 1e-8);
 }
 
-TEST_CASE("the uncertainty of gravities contains that of the lags", "[day][oracle]") {
+TEST_CASE("the uncertainty of gravities contains that of the lags") {
     Worst worst;
     const std::uint64_t problems = test::is_long() ? 50 : 20;
     for (std::uint64_t seed = 1; seed <= problems; ++seed)

@@ -27,7 +27,7 @@ DayRecord with_effect(std::uint64_t seed, const Effect& effect_mgal) {
 
 }  // namespace
 
-TEST_CASE("ordinary days with five times the usual noise fit", "[day][goodness]") {
+TEST_CASE("ordinary days with five times the usual noise fit") {
     int misfits = 0;
     for (std::uint64_t seed = 1; seed <= 10; ++seed) {
         const auto tests =
@@ -38,7 +38,7 @@ TEST_CASE("ordinary days with five times the usual noise fit", "[day][goodness]"
     CHECK(misfits <= 2);
 }
 
-TEST_CASE("a step is found where it is", "[day][goodness]") {
+TEST_CASE("a step is found where it is") {
     const auto tests =
         tests_of(with_effect(1, [](const DayBin& bin) { return bin.set_up >= 9 ? 15.0 : 0.0; }));
     const FitTest& step = tests.at(1);
@@ -47,7 +47,7 @@ TEST_CASE("a step is found where it is", "[day][goodness]") {
     CHECK(step.place == 9);
 }
 
-TEST_CASE("a response with the square of the temperature is found", "[day][goodness]") {
+TEST_CASE("a response with the square of the temperature is found") {
     const DayRecord record = kScattered.record(2);
     const BinMeans means(record.temperature.series, record.bins);
     const Eigen::VectorXd degc = means.of(record.temperature.series.values());
@@ -62,7 +62,7 @@ TEST_CASE("a response with the square of the temperature is found", "[day][goodn
     CHECK(curvature.place == 0);  // of the temperature, not of the time
 }
 
-TEST_CASE("set-ups that are far off are found", "[day][goodness]") {
+TEST_CASE("set-ups that are far off are found") {
     const auto tests = tests_of(with_effect(3, [](const DayBin& bin) {
         return bin.set_up == 4 ? 14.0 : bin.set_up == 7 ? 15.0 : bin.set_up == 10 ? -17.0 : 0.0;
     }));
@@ -71,13 +71,13 @@ TEST_CASE("set-ups that are far off are found", "[day][goodness]") {
     CHECK(tests.at(2).place == 10);
 }
 
-TEST_CASE("the same day gives the same probabilities", "[day][goodness]") {
+TEST_CASE("the same day gives the same probabilities") {
     const DayRecord record = kScattered.record(4);
     const auto a = tests_of(record), b = tests_of(record);
     for (std::size_t k = 0; k < a.size(); ++k) CHECK(a[k].p == b[k].p);
 }
 
-TEST_CASE("a day with few known stations is not tested", "[day][goodness]") {
+TEST_CASE("a day with few known stations is not tested") {
     auto stations = stations_without({1, 2, 3, 4, 5, 6, 7, 8, 9, 10});  // 16 set-ups at 11 sites
     CHECK(tests_of(kScattered.record(), stations).size() == 3);         // 5 degrees of freedom
     for (std::size_t s = MadeUpDay::kSites; s < MadeUpDay::kSetUps; ++s) stations[s].number = s;

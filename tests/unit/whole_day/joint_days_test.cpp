@@ -107,7 +107,7 @@ std::pair<double, std::vector<double>> dense(const std::vector<DaySurvey>& surve
 
 }  // namespace
 
-TEST_CASE("the likelihood and the gravities of a box are those of dense matrices", "[day][joint]") {
+TEST_CASE("the likelihood and the gravities of a box are those of dense matrices") {
     std::vector<DayRecord> records = box_of(2, 0.5, 5);
     records[0] = with_outer_oven(records[0], 2.0, 5.0);
     const std::vector<DaySurvey> surveys{survey_of(records[0], 0), survey_of(records[1], 1)};
@@ -145,7 +145,7 @@ TEST_CASE("the likelihood and the gravities of a box are those of dense matrices
     }
 }
 
-TEST_CASE("a day in one face and one in two have the same slopes", "[day][joint][faces]") {
+TEST_CASE("a day in one face and one in two have the same slopes") {
     // Half of the response acts on the scale, which the day in one face cannot see.
     MadeUpDay two{.has_two_faces = true, .scale_share = 0.5}, one = two;
     one.has_two_faces = false;
@@ -160,7 +160,7 @@ TEST_CASE("a day in one face and one in two have the same slopes", "[day][joint]
         CHECK(joint.gravity(number).value == Approx(MadeUpDay::gravity_mgal(number)).margin(0.01));
 }
 
-TEST_CASE("days of one unit share its response, and have their own constants", "[day][joint]") {
+TEST_CASE("days of one unit share its response, and have their own constants") {
     MadeUpDay second = kScattered;
     second.constant += 400.0;
     second.drift = -0.7;
@@ -185,8 +185,7 @@ TEST_CASE("days of one unit share its response, and have their own constants", "
     CHECK_FALSE(joint.share());
 }
 
-TEST_CASE("units with only stations in common give the weighted mean of their days",
-          "[day][joint]") {
+TEST_CASE("units with only stations in common give the weighted mean of their days") {
     const DayRecord a = kScattered.record(21), b = later(kScattered.record(22), kOneDay);
     const DayAdjustment joint = adjust_days({survey_of(a, 0), survey_of(b, 1)});
     const FittedDay of_a = fit_day(a, some_known()).value(),
@@ -204,7 +203,7 @@ TEST_CASE("units with only stations in common give the weighted mean of their da
     }
 }
 
-TEST_CASE("the share of the placement that a box has is found", "[day][joint]") {
+TEST_CASE("the share of the placement that a box has is found") {
     double last_u_mgal = 0.0;
     for (const double share : {0.0, 1.0}) {
         const std::vector<DayRecord> records = box_of(3, share, 8);
@@ -224,7 +223,7 @@ TEST_CASE("the share of the placement that a box has is found", "[day][joint]") 
     }
 }
 
-TEST_CASE("the order of surveys has no effect on the gravities", "[day][joint]") {
+TEST_CASE("the order of surveys has no effect on the gravities") {
     const std::vector<DayRecord> records = box_of(2, 0.5, 9);
     const DayRecord next = later(kScattered.record(31), kOneDay);
     const DayAdjustment one =

@@ -33,8 +33,7 @@ TimeSeries<DegC> series(std::vector<double> degc) {
 
 }  // namespace
 
-TEST_CASE("what a gap leaves unknown of the lags is as large as other stretches of the day show",
-          "[day]") {
+TEST_CASE("what a gap leaves unknown of the lags is as large as other stretches of the day show") {
     constexpr double kFastLag_s = 43.0, kSlowLag_s = 2700.0;
     constexpr std::size_t kBefore = 20000, kAfter = kBefore + 1800;  // an hour
     double fast_true = 0.0, slow_true = 0.0, fast_said = 0.0, slow_said = 0.0;
@@ -61,7 +60,7 @@ TEST_CASE("what a gap leaves unknown of the lags is as large as other stretches 
     CHECK(std::sqrt(slow_said / slow_true) == Approx(1.0).epsilon(0.15));
 }
 
-TEST_CASE("a day that is mostly a gap has the scatter of its temperature as upper limit", "[day]") {
+TEST_CASE("a day that is mostly a gap has the scatter of its temperature as upper limit") {
     std::vector<double> degc(1000, 42.0);
     for (std::size_t i = 500; i < 1000; ++i) degc[i] = 43.0;
     const auto states = lag_states({series(degc), {{100, 900}}}, 43.0, 2700.0);
@@ -70,7 +69,7 @@ TEST_CASE("a day that is mostly a gap has the scatter of its temperature as uppe
     CHECK(lag_states({series(degc), {}}, 43.0, 2700.0).empty());
 }
 
-TEST_CASE("a state fades with its lag, and does not exist before its gap ends", "[day]") {
+TEST_CASE("a state fades with its lag, and does not exist before its gap ends") {
     DayBin bin;
     for (int i = 0; i < 10; ++i) bin.times.push_back(kFirstMinute + from_seconds(2.0 * i));
     CHECK(remaining(bin, kFirstMinute + from_seconds(60.0), 43.0) == 0.0);

@@ -29,7 +29,7 @@ double error_with_outer(double slope, bool is_seen) {
 
 }  // namespace
 
-TEST_CASE("slopes and lag of an outer oven are found", "[day][outer_oven]") {
+TEST_CASE("slopes and lag of an outer oven are found") {
     const DayRecord day = with_outer_oven(MadeUpDay{}.record(), 4.0, 12.0);
     const auto fit = fit_day(day, MadeUpDay::stations());
     REQUIRE(fit);
@@ -41,20 +41,19 @@ TEST_CASE("slopes and lag of an outer oven are found", "[day][outer_oven]") {
         CHECK(corrected_mgal(set_up) == Approx(set_up.corrected.value()).epsilon(1e-12));
 }
 
-TEST_CASE("a day without an outer oven has no slopes of one", "[day][outer_oven]") {
+TEST_CASE("a day without an outer oven has no slopes of one") {
     const auto fit = fit_day(MadeUpDay{}.record(), MadeUpDay::stations());
     CHECK_FALSE(fit.value().outer);
     CHECK(fit->point.back() == 0.0);
     CHECK(fit->expected.back() == 0.0);
 }
 
-TEST_CASE("an outer oven improves days on which it acts, and harms no others",
-          "[day][outer_oven]") {
+TEST_CASE("an outer oven improves days on which it acts, and harms no others") {
     CHECK(error_with_outer(12.0, true) < 0.8 * error_with_outer(12.0, false));
     CHECK(error_with_outer(0.0, true) < 1.03 * error_with_outer(0.0, false));
 }
 
-TEST_CASE("days of one unit share its slopes by the outer oven", "[day][joint][outer_oven]") {
+TEST_CASE("days of one unit share its slopes by the outer oven") {
     std::vector<DayRecord> records;
     for (int k = 0; k < 3; ++k)
         records.push_back(

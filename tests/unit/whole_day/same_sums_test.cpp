@@ -5,7 +5,7 @@
 using namespace a351;
 using namespace a351::corrector::whole_day;
 
-TEST_CASE("Eigen sums in the same order on every processor", "[day]") {
+TEST_CASE("Eigen sums in the same order on every processor") {
 #ifdef EIGEN_VECTORIZE
     FAIL("Eigen uses the vector instructions of this processor");
 #endif
@@ -14,8 +14,7 @@ TEST_CASE("Eigen sums in the same order on every processor", "[day]") {
     CHECK(Eigen::l3CacheSize() == 2097152);
 }
 
-TEST_CASE("the points and costs of a search do not depend on the last bits of its values",
-          "[day]") {
+TEST_CASE("the points and costs of a search do not depend on the last bits of its values") {
     for (const double value : {0.3, -1.7, 11.25, 1e-9}) {
         CHECK(search_point(value) == search_point(value * (1.0 + 1e-13)));
         CHECK(search_point(value) == Approx(value).margin(3.1e-5));
