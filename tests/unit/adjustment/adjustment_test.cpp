@@ -57,7 +57,7 @@ Equations random_problem(std::uint64_t seed) {
         for (std::size_t i = 0; i < readings; ++i) {
             hours += draw.between(0.1, 0.9);
             const std::size_t station = draw.count(0, equations.stations - 1);
-            Equation row;
+            Equation& row = equations.rows.emplace_back();
             row.sd = draw.between(0.5, 3.0) * (draw.is(0.3) ? 0.01 : 1.0);
             row.unknowns = {{station, draw.between(0.999, 1.001)},
                             term(loop * (degree + 1), 1.0),
@@ -68,7 +68,6 @@ Equations random_problem(std::uint64_t seed) {
             if (has_temperature) row.unknowns.push_back(term(temperature, draw.between(-0.3, 0.4)));
             if (has_step && i >= readings / 2) row.unknowns.push_back(term(step, 1.0));
             row.value = draw.between(-900000.0, 900000.0);
-            equations.rows.push_back(std::move(row));
         }
     }
     const auto prior = [&](std::size_t k, double sd) {

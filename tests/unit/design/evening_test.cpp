@@ -20,18 +20,16 @@ model::SurveyCorrection corrected(const Plan& plan, double u_mgal) {
         const Visit& visit = plan[i];
         const text::Site site = *text::find_site(made_up_sites(), visit.site);
         for (int k = 0; k < visit.set_ups; ++k) {
-            model::CorrectedRow row;
+            model::CorrectedRow& row = result.rows.emplace_back();
             row.row.site = visit.site;
             row.row.key = std::to_string(i);
             row.row.reference = site.gravity;
             row.row.start = visit.start + from_seconds(60.0 * k * visit.minutes_each);
             row.row.end = *row.row.start + from_seconds(60.0 * visit.minutes_each);
-            result.rows.push_back(row);
         }
-        model::StationValue station;
+        model::StationValue& station = result.stations.emplace_back();
         station.site = visit.site;
         station.u_gravity = MilliGal(u_mgal);
-        result.stations.push_back(station);
     }
     return result;
 }

@@ -41,11 +41,10 @@ struct Pair {
             text::Site site;
             site.name = kSites[k];
             read.sites.push_back(site);
-            reading::SurveyRow row;
+            reading::SurveyRow& row = read.rows.emplace_back();
             row.site = kSites[k];
             row.acceleration = MilliGal(981000.0 + kStep_mgal * static_cast<double>(k));
             row.time = *parse_rfc3339("2026-05-01T00:00:00Z") + std::chrono::hours(k);
-            read.rows.push_back(row);
         }
     }
     void publish(std::size_t site, double gravity_mgal) {
@@ -90,11 +89,10 @@ TEST_CASE("the comparison has the stations of both and the uncertainty of the gr
     result.scales.push_back({"", 1.002, 3e-4, adjustment::kSensorScale});
     result.coefficients.push_back({"constant_mgal", 12.0, 1.0});
     for (const std::string site : {"A", "C", "D"}) {
-        model::StationValue station;
+        model::StationValue& station = result.stations.emplace_back();
         station.site = site;
         station.left_out = MilliGal(981001.0 + (site == "C" ? 2.0 * kStep_mgal : 0.0));
         station.u_left_out = MilliGal(1.5);
-        result.stations.push_back(station);
     }
     compare_with_reference(result, network);
     const model::SideBySide& both = result.side_by_side.value();

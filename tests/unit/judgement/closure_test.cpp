@@ -39,9 +39,8 @@ SurveyCorrection survey() {
                         out.drift_correction;
     }
     for (const char* const site : {"B", "S"}) {
-        StationValue station;
+        StationValue& station = result.stations.emplace_back();
         station.site = site;
-        result.stations.push_back(station);
     }
     return result;
 }

@@ -18,18 +18,16 @@ WholeDayRow left_out(double mgal) {
 SurveyCorrection day(const std::vector<std::string>& sites, double off) {
     SurveyCorrection result;
     for (std::size_t i = 0; i < sites.size(); ++i) {
-        CorrectedRow row;
+        CorrectedRow& row = result.rows.emplace_back();
         row.row.site = sites[i];
         row.row.key = "K" + std::to_string(i);
         row.row.time = UtcTime(std::chrono::minutes(30 * i));
         row.row.reference = MilliGal(979800.0);
         row.own = left_out(979800.0 + 2.0 * off);
         row.studentised_residual = -off;
-        result.rows.push_back(row);
         if (i == 0 || sites[i] != sites[i - 1]) {
-            StationValue station;
+            StationValue& station = result.stations.emplace_back();
             station.site = sites[i];
-            result.stations.push_back(station);
         }
     }
     return result;

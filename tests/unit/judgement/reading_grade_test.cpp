@@ -24,9 +24,8 @@ SurveyCorrection quiet(std::size_t count) {
         row.residual = MilliGal(4.0);
         row.u_corrected = MilliGal(2.0);
         result.rows.push_back(row);
-        StationValue station;
+        StationValue& station = result.stations.emplace_back();
         station.site = row.row.site;
-        result.stations.push_back(station);
     }
     return result;
 }

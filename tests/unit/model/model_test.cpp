@@ -109,9 +109,8 @@ TEST_CASE("the whole-day model refuses priors that it would ignore") {
     set_prior(options.priors, "test", "time_mgal_per_h", {0.0, 0.1});
     DayRecord day{{{rows.front().time, Hertz(0.5), {42.5}}, {}}, {}};
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        DayBin bin;
+        DayBin& bin = day.bins.emplace_back();
         bin.set_up = i;
-        day.bins.push_back(bin);
     }
     const auto fit = find_model("day")->fit({rows, options, &day}, all_of(rows));
     CHECK_THAT(std::get<Refusal>(fit).trouble, ContainsSubstring("`prior` would be ignored"));

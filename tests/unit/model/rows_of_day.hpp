@@ -12,14 +12,13 @@ namespace a351::corrector::model {
 inline std::vector<reading::SurveyRow> rows_of(const reading::DayRecord& day) {
     std::vector<reading::SurveyRow> rows;
     for (std::size_t s = 0; s < whole_day::MadeUpDay::kSetUps; ++s) {
-        reading::SurveyRow row;
+        reading::SurveyRow& row = rows.emplace_back();
         row.site = "S" + std::to_string(s % 11);
         row.occupation = s < 11 ? 1 : 2;
         row.time = day.bins[s * whole_day::MadeUpDay::kBins + whole_day::MadeUpDay::kBins / 2].time;
         row.acceleration = day.bins[s * whole_day::MadeUpDay::kBins].reading;
         row.temperature = DegC(42.5 + 0.1 * static_cast<double>(s * s % 7));
         row.reference = MilliGal(whole_day::MadeUpDay::gravity_mgal(s));
-        rows.push_back(row);
     }
     return rows;
 }

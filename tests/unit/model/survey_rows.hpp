@@ -49,14 +49,13 @@ inline std::vector<reading::SurveyRow> day() {
     std::map<std::string, int> stays;
     std::vector<reading::SurveyRow> rows;
     for (std::size_t i = 0; i < sites.size(); ++i) {
-        reading::SurveyRow row;
+        reading::SurveyRow& row = rows.emplace_back();
         row.site = sites[i];
         row.occupation = ++stays[sites[i]];
         row.time = kMorning + std::chrono::minutes(45 * i + 3 * (i % 3));
         row.temperature = DegC(temperatures_degc[i]);
         row.tide = MilliGal(0.01 * static_cast<double>(i) - 0.05);
         row.reference = MilliGal(gravity_mgal(sites[i]));
-        rows.push_back(row);
     }
     reading::set_backward_rates(rows);
     for (reading::SurveyRow& row : rows) {

@@ -14,21 +14,19 @@ TEST_CASE("a remark on two set-ups of a stay is said once, with the larger numbe
     so_far.read.emplace();
     so_far.result.emplace();
     for (const double off_mgal : {11.5, 11.6, 11.4}) {
-        model::CorrectedRow row;
+        model::CorrectedRow& row = so_far.result->rows.emplace_back();
         row.row.site = "No.6";
         row.row.key = "K";
         row.row.reference = MilliGal(979800.0);
         row.corrected = MilliGal(979800.0 + off_mgal);
         row.residual = MilliGal(off_mgal);
         row.u_corrected = MilliGal(3.0);
-        so_far.result->rows.push_back(row);
     }
     for (const char* const reason : {"no samples", "too short"}) {
-        reading::LeftOut left_out;
+        reading::LeftOut& left_out = so_far.result->left_out.emplace_back();
         left_out.site = "No.6";
         left_out.key = "K";
         left_out.reason = reason;
-        so_far.result->left_out.push_back(left_out);
     }
     const auto stays = to_json(so_far).at("stays");
     REQUIRE(stays.size() == 1);
@@ -47,14 +45,13 @@ TEST_CASE("u of a stay is that of the mean of its set-ups") {
     so_far.read.emplace();
     so_far.result.emplace();
     for (const char* const key : {"A", "A", "B", "B", "B"}) {
-        model::CorrectedRow row;
+        model::CorrectedRow& row = so_far.result->rows.emplace_back();
         row.row.site = "No.6";
         row.row.key = key;
         row.row.occupation = *key == 'A' ? 1 : 2;
         row.corrected = MilliGal(979800.0);
         row.u_corrected = MilliGal(
             std::hypot(kStation_mgal, kPlacement_mgal * std::sqrt(1.0 - 1.0 / kCount)));
-        so_far.result->rows.push_back(row);
     }
     model::StationValue& station = so_far.result->stations.emplace_back();
     station.site = "No.6";

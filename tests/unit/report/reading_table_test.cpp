@@ -44,14 +44,13 @@ Lines readings_of(const SurveyCorrection& result) {
 SurveyCorrection corrected_by_day(const DayRecord& day) {
     std::vector<SurveyRow> rows;
     for (std::size_t s = 0; s < MadeUpDay::kSetUps; ++s) {
-        SurveyRow row;
+        SurveyRow& row = rows.emplace_back();
         row.site = "S" + std::to_string(s % 11);
         row.occupation = s < 11 ? 1 : 2;
         row.time = day.bins[s * MadeUpDay::kBins + 3].time;
         row.start = row.time - std::chrono::minutes(1);  // the trend's interval
         row.end = row.time + std::chrono::minutes(1);
         row.reference = MilliGal(MadeUpDay::gravity_mgal(s));
-        rows.push_back(row);
     }
     return correct_survey(rows, {.model = "day"}, &day);
 }

@@ -56,7 +56,7 @@ struct MadeUpDay {
         for (std::size_t s = 0; s < kSetUps; ++s) {
             const StandardGravity tilt(0.002 * normal(random));
             for (std::size_t b = 0; b < kBins; ++b) {
-                reading::DayBin bin;
+                reading::DayBin& bin = day.bins.emplace_back();
                 bin.set_up = s;
                 for (std::size_t i = 0; i < reading::kBinSamples; ++i)
                     bin.times.push_back(
@@ -66,7 +66,6 @@ struct MadeUpDay {
                 bin.time = bin.times[reading::kBinSamples / 2];
                 bin.x = tilt;
                 bin.face = face(s);
-                day.bins.push_back(bin);
             }
         }
         const BinMeans means(day.temperature.series, day.bins);
