@@ -32,10 +32,11 @@ SurveyCorrection quiet(std::size_t count) {
 
 Grade first_grade(const SurveyCorrection& result) { return grade_readings(result).front().grade; }
 
-std::string first_reasons(const SurveyCorrection& result) {
-    std::string text;
-    const ReadingGrade first = grade_readings(result).front();
-    for (const Reason& reason : first.reasons) text += reason.text.english() + '|';
+/// Returns the grade of the first reading, and its reasons.
+std::string first(const SurveyCorrection& result) {
+    const ReadingGrade grade = grade_readings(result).front();
+    std::string text = std::string(grade_name(grade.grade)) + ": ";
+    for (const Reason& reason : grade.reasons) text += reason.text.english() + '|';
     return text;
 }
 
@@ -43,8 +44,7 @@ std::string first_reasons(const SurveyCorrection& result) {
 
 TEST_CASE("a reading at its limits is trusted") {
     const SurveyCorrection result = quiet(2);
-    CHECK(first_grade(result) == Grade::trust);
-    CHECK(first_reasons(result).empty());
+    CHECK(first(result) == "trust: ");
     CHECK(grade_of_station(result, grade_readings(result), "B").grade == Grade::trust);
 }
 
@@ -58,25 +58,21 @@ TEST_CASE("no reading of a survey is trusted if the survey as a whole is not") {
     CHECK(first_grade(network) == Grade::trust);
     part.weighted_square = 16.1;
     network.own = part;
-    CHECK(first_grade(network) == Grade::care);
-    CHECK(first_reasons(network) == "the readings scatter more than stated (global test failed)|");
+    CHECK(first(network) == "care: the readings scatter more than stated (global test failed)|");
 
     SurveyCorrection unusable = quiet(2);
     unusable.findings.push_back({.kind = FindingKind::unusable_day, .text = "not usable"});
-    CHECK(first_grade(unusable) == Grade::care);
-    CHECK(first_reasons(unusable) == "not usable|");
+    CHECK(first(unusable) == "care: not usable|");
 }
 
 TEST_CASE("a moving temperature is graded repeat, or care if the model has a rate term") {
     SurveyCorrection result = quiet(2);
     result.rows[0].row.rate_degc_per_h = -0.21;
-    CHECK(first_grade(result) == Grade::repeat);
-    CHECK(first_reasons(result) ==
-          "temperature not steady: rate -0.210 degC/h, which the model does not correct|");
+    CHECK(first(result) ==
+          "repeat: temperature not steady: rate -0.210 degC/h, which the model does not correct|");
     result.rows[0].rate_correction = MilliGal(5.25);
-    CHECK(first_grade(result) == Grade::care);
-    CHECK_THAT(first_reasons(result),
-               ContainsSubstring("depends on a rate correction of 5.2 mGal"));
+    CHECK_THAT(first(result), StartsWith("care: ") &&
+                                  ContainsSubstring("depends on a rate correction of 5.2 mGal"));
 }
 
 TEST_CASE("a temperature that moves one way is graded repeat above the limit of its range") {
@@ -98,9 +94,8 @@ TEST_CASE("the whole-day model is graded by its prediction without the station")
     result.rows[0].studentised_residual = -1.9;
     CHECK(first_grade(result) == Grade::trust);
     result.rows[0].studentised_residual = 3.1;
-    CHECK(first_grade(result) == Grade::repeat);
-    CHECK(first_reasons(result) ==
-          "6.2 mGal above its reference when its station is left out, 3.1 times "
+    CHECK(first(result) ==
+          "repeat: 6.2 mGal above its reference when its station is left out, 3.1 times "
           "the uncertainty expected if name and reference are right|");
 }
 
@@ -112,22 +107,21 @@ TEST_CASE("a reading with a scatter above its uncertainty is graded care, a shak
     record.rectification = MilliGal(2.0);
     CHECK(first_grade(result) == Grade::trust);
     record.standard_error = MilliGal(2.1);
-    CHECK(first_grade(result) == Grade::care);
-    CHECK(first_reasons(result) ==
-          "its samples scatter: their mean is known to 2.1 mGal only (u: 2.0 mGal)|");
+    CHECK(first(result) ==
+          "care: its samples scatter: their mean is known to 2.1 mGal only (u: 2.0 mGal)|");
     // A gravimeter needs more digits.
     result.rows[0].u_corrected = MilliGal(0.005);
     result.rows[0].residual.reset();
     record.standard_error = MilliGal(0.0123);
     record.rectification = MilliGal(0.0);
-    CHECK(first_reasons(result) ==
-          "its samples scatter: their mean is known to 0.0123 mGal only (u: 0.0050 mGal)|");
+    CHECK(first(result) ==
+          "care: its samples scatter: their mean is known to 0.0123 mGal only (u: 0.0050 mGal)|");
     result.rows[0].u_corrected = MilliGal(2.0);
     record.standard_error.reset();
     record.rectification = MilliGal(77.6);
-    CHECK(first_grade(result) == Grade::repeat);
-    CHECK(first_reasons(result) ==
-          "the box was shaken as on a drive: this changes the norm of its samples by 77.6 mGal, "
+    CHECK(first(result) ==
+          "repeat: the box was shaken as on a drive: this changes the norm of its samples by 77.6 "
+          "mGal, "
           "more than its u of 2.0 mGal|");
 }
 
@@ -141,9 +135,8 @@ TEST_CASE("set-ups of one station are compared by the placement scatter of the w
     result.rows[1].corrected = MilliGal(4.2);  // 2 sqrt(2) 1.5 = 4.24
     CHECK(first_grade(result) == Grade::trust);
     result.rows[1].corrected = MilliGal(4.3);
-    CHECK(first_grade(result) == Grade::care);
-    CHECK(first_reasons(result) ==
-          "differs by 4.3 mGal from A (1b), 2.0 times the value expected from placement|");
+    CHECK(first(result) ==
+          "care: differs by 4.3 mGal from A (1b), 2.0 times the value expected from placement|");
 }
 
 TEST_CASE(
@@ -155,15 +148,13 @@ TEST_CASE(
     row.is_flagged = true;
     row.record.emplace().smoother_mean = MilliGal(3.0);
     result.own = WholeDayPart{};
-    CHECK(first_grade(result) == Grade::trust);
-    CHECK(first_reasons(result).empty());
+    CHECK(first(result) == "trust: ");
 }
 
 TEST_CASE("a record split by a knock is graded care, except for the whole-day model") {
     SurveyCorrection result = quiet(1);
     result.rows[0].row.notes = {"pulse"};
-    CHECK(first_grade(result) == Grade::care);
-    CHECK(first_reasons(result) == "a knock split the record; its longest part was used|");
+    CHECK(first(result) == "care: a knock split the record; its longest part was used|");
 }
 
 TEST_CASE("a mistake found at a stay lowers its grade; a remark or a move of the box does not") {
@@ -192,8 +183,8 @@ TEST_CASE("an excluded reading is graded repeat, an amended one can be trusted")
 TEST_CASE("a residual above two u is graded care, above three u repeat") {
     SurveyCorrection result = quiet(1);
     result.rows[0].residual = MilliGal(4.1);
-    CHECK(first_grade(result) == Grade::care);
-    CHECK_THAT(first_reasons(result), ContainsSubstring("4.1 mGal above its reference"));
+    CHECK_THAT(first(result),
+               StartsWith("care: ") && ContainsSubstring("4.1 mGal above its reference"));
     result.rows[0].residual = MilliGal(-6.1);
     CHECK(first_grade(result) == Grade::repeat);
     result.rows[0].residual.reset();
@@ -216,9 +207,8 @@ TEST_CASE("readings of one station that disagree are both graded care") {
     result.rows[1].corrected = MilliGal(5.6);  // 2 sqrt(2) s = 5.66
     CHECK(first_grade(result) == Grade::trust);
     result.rows[1].corrected = MilliGal(5.7);
-    CHECK(first_grade(result) == Grade::care);
-    CHECK(first_reasons(result) ==
-          "differs by 5.7 mGal from A (2), 2.0 times the value expected from s|");
+    CHECK(first(result) ==
+          "care: differs by 5.7 mGal from A (2), 2.0 times the value expected from s|");
     CHECK(grade_readings(result)[1].reasons.front().text ==
           "differs by 5.7 mGal from A (1), 2.0 times the value expected from s");
     result.rows[1].row.rate_degc_per_h = 0.3;  // it must be repeated and is not used for comparison
