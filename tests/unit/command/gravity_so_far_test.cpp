@@ -1,6 +1,5 @@
 // Gravity so far by the program: `survey --json` on the data root of a made-up morning.
 #include <set>
-#include "protocol/events/event_log.hpp"
 #include "tests/unit/command/run_command.hpp"
 #include "tests/unit/reading/morning.hpp"
 
@@ -9,15 +8,10 @@ using namespace a351;
 namespace {
 
 void log_stay(const Morning& morning, std::size_t i, const std::string& site = {}) {
-    const auto append = [&](const events::Event& event) {
-        events::append_event(files::posix_files(), morning.folder().path() / "data/events", event);
-    };
-    append({"start",
-            Morning::start_of(i),
-            {},
-            {},
-            {{"site", site.empty() ? Morning::kSites[i] : site}}});
-    append({"stop", Morning::start_of(i) + Morning::kStay, {}, {}, {}});
+    events::Event start = Morning::start_event(i);
+    if (!site.empty()) start.details["site"] = site;
+    morning.log(start);
+    morning.log(Morning::stop_event(i));
 }
 
 /// Returns all files below the folder with their sizes.

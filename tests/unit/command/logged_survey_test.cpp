@@ -2,7 +2,6 @@
 // the rest.
 #include <array>
 #include <fstream>
-#include "protocol/events/event_log.hpp"
 #include "tests/unit/command/run_command.hpp"
 #include "tests/unit/reading/morning.hpp"
 
@@ -10,18 +9,12 @@ using namespace a351;
 
 namespace {
 
-events::Event start(std::size_t i) {
-    return {"start", Morning::start_of(i), {}, {}, {{"site", Morning::kSites[i]}}};
-}
-
-events::Event stop(std::size_t i) {
-    return {"stop", Morning::start_of(i) + Morning::kStay, {}, {}, {}};
-}
+events::Event start(std::size_t i) { return Morning::start_event(i); }
+events::Event stop(std::size_t i) { return Morning::stop_event(i); }
 
 /// Corrects a morning whose event log has these events in this order.
 Outcome correct(const Morning& morning, const std::vector<events::Event>& events) {
-    for (const events::Event& event : events)
-        events::append_event(files::posix_files(), morning.folder().path() / "data/events", event);
+    for (const events::Event& event : events) morning.log(event);
     morning.folder().write("day.toml", "[survey]\nmodel = 't'\n");
     return run(morning.folder(), "survey day.toml");
 }

@@ -6,7 +6,6 @@
 #include "corrector/job/survey_readings.hpp"
 #include "corrector/job/survey_units.hpp"
 #include "protocol/core/input_error.hpp"
-#include "protocol/events/event_log.hpp"
 
 using namespace a351;
 using namespace a351::corrector::job;
@@ -42,13 +41,9 @@ OccupationRows average_listed(const Morning& morning, const std::string& rows) {
 
 /// Logs the stays; the last one without its stop.
 void log_stays(const Morning& morning, bool has_last_stop) {
-    const auto log = [&](const events::Event& event) {
-        events::append_event(files::posix_files(), morning.folder().path() / "data/events", event);
-    };
     for (std::size_t i = 0; i < kMorningSites.size(); ++i) {
-        log({"start", Morning::start_of(i), {}, {}, {{"site", kMorningSites[i]}}});
-        if (has_last_stop || i + 1 < kMorningSites.size())
-            log({"stop", Morning::start_of(i) + kStay, {}, {}, {}});
+        morning.log(Morning::start_event(i));
+        if (has_last_stop || i + 1 < kMorningSites.size()) morning.log(Morning::stop_event(i));
     }
 }
 

@@ -12,6 +12,7 @@
 #include "protocol/archive/sds.hpp"
 #include "protocol/core/units.hpp"
 #include "protocol/core/utc_time.hpp"
+#include "protocol/events/event_log.hpp"
 #include "protocol/station/station_xml.hpp"
 #include "tests/support/temporary_directory.hpp"
 
@@ -83,6 +84,18 @@ public:
 
     [[nodiscard]] static UtcTime start_of(std::size_t i) {
         return kBegin + static_cast<int>(i) * kCycle + std::chrono::seconds(20);
+    }
+
+    [[nodiscard]] static events::Event start_event(std::size_t i) {
+        return {"start", start_of(i), {}, {}, {{"site", kSites[i]}}};
+    }
+
+    [[nodiscard]] static events::Event stop_event(std::size_t i) {
+        return {"stop", start_of(i) + kStay, {}, {}, {}};
+    }
+
+    void log(const events::Event& event) const {
+        events::append_event(files::posix_files(), folder_.path() / "data/events", event);
     }
 
     [[nodiscard]] const test::TemporaryDirectory& folder() const { return folder_; }
