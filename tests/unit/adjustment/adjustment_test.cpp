@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <iostream>
 #include <random>
-#include "tests/support/catch.hpp"
 #include "tests/support/long_tests.hpp"
 
 #include "tests/unit/adjustment/dense_oracle.hpp"

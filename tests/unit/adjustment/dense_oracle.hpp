@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "tests/support/catch.hpp"
+
 namespace a351::test {
 
 using Real = long double;

@@ -2,9 +2,7 @@
 #include "corrector/adjustment/trials.hpp"
 
 #include <array>
-#include <cmath>
 #include <random>
-#include "tests/support/catch.hpp"
 
 #include "tests/unit/adjustment/dense_oracle.hpp"
 

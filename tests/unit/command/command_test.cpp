@@ -1,5 +1,4 @@
 // The program a351-correct as a script sees it: exit status, streams and the files of `table`.
-#include <algorithm>
 #include "tests/unit/command/run_command.hpp"
 
 using namespace a351;

@@ -1,6 +1,5 @@
 // Survey days with missing or wrong input, corrected by the program: it computes the good part and
 // reports the rest.
-#include <algorithm>
 #include <boost/crc.hpp>
 #include <map>
 #include "tests/unit/command/run_command.hpp"

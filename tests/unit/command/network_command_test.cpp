@@ -1,6 +1,5 @@
 // Networks adjusted by the program: it finds what the readings determine and reports what they
 // leave open.
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include "protocol/core/utc_time.hpp"

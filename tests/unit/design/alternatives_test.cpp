@@ -1,6 +1,5 @@
 #include "corrector/design/alternatives.hpp"
 
-#include "tests/support/catch.hpp"
 #include "tests/support/temporary_directory.hpp"
 #include "tests/unit/design/made_up_plan.hpp"
 

@@ -3,7 +3,6 @@
 #include <nlohmann/json.hpp>
 
 #include "protocol/text/csv.hpp"
-#include "tests/support/catch.hpp"
 #include "tests/unit/design/made_up_plan.hpp"
 
 using namespace a351;

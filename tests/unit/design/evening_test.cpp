@@ -1,6 +1,5 @@
 #include "corrector/design/evening.hpp"
 
-#include "tests/support/catch.hpp"
 #include "tests/unit/design/made_up_plan.hpp"
 
 using namespace a351;

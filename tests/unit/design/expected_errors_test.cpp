@@ -4,7 +4,6 @@
 
 #include "corrector/design/planned_day.hpp"
 #include "corrector/whole_day/day_model.hpp"
-#include "tests/support/catch.hpp"
 #include "tests/unit/design/made_up_plan.hpp"
 
 using namespace a351;

@@ -5,6 +5,7 @@
 #include "corrector/design/expected_errors.hpp"
 #include "corrector/design/plan.hpp"
 #include "corrector/design/planned_unit.hpp"
+#include "tests/support/catch.hpp"
 
 namespace a351::corrector::design {
 

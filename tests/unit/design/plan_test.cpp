@@ -1,7 +1,6 @@
 #include "corrector/design/plan.hpp"
 
 #include "protocol/core/input_error.hpp"
-#include "tests/support/catch.hpp"
 #include "tests/support/temporary_directory.hpp"
 #include "tests/unit/design/made_up_plan.hpp"
 

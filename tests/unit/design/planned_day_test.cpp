@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "corrector/reading/survey_row.hpp"
-#include "tests/support/catch.hpp"
 #include "tests/unit/design/made_up_plan.hpp"
 
 using namespace a351;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "corrector/model/survey_correction.hpp"
+#include "tests/support/catch.hpp"
 
 namespace a351::corrector::figure {
 

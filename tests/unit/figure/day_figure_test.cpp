@@ -1,8 +1,5 @@
-#include "tests/support/catch.hpp"
-
 #include "corrector/figure/gnuplot_script.hpp"
 #include "corrector/figure/survey_figures.hpp"
-#include "corrector/model/survey_correction.hpp"
 #include "tests/unit/figure/corrected_rows.hpp"
 #include "tests/unit/model/survey_rows.hpp"
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
-#include "tests/support/catch.hpp"
 
 #include "corrector/figure/layout.hpp"
 #include "tests/unit/figure/corrected_rows.hpp"

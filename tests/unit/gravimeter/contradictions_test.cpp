@@ -1,7 +1,5 @@
 #include "corrector/gravimeter/contradictions.hpp"
 
-#include "tests/support/catch.hpp"
-
 #include <fmt/core.h>
 
 #include "tests/unit/gravimeter/made_up_lines.hpp"

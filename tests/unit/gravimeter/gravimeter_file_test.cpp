@@ -2,12 +2,9 @@
 #include "corrector/gravimeter/columns.hpp"
 #include "corrector/gravimeter/stays.hpp"
 
-#include "tests/support/catch.hpp"
-
 #include <fmt/core.h>
 
 #include "protocol/core/input_error.hpp"
-#include "tests/support/temporary_directory.hpp"
 #include "tests/unit/gravimeter/made_up_lines.hpp"
 
 using namespace a351;

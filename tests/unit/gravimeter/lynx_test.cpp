@@ -1,9 +1,6 @@
 // Files of Lynx LG, the program of the CG-6.
 #include "corrector/gravimeter/columns.hpp"
-#include "corrector/gravimeter/gravimeter_file.hpp"
 #include "corrector/gravimeter/stays.hpp"
-
-#include "tests/support/catch.hpp"
 
 #include "tests/unit/gravimeter/made_up_lines.hpp"
 

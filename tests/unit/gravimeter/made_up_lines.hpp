@@ -3,6 +3,7 @@
 #include <string>
 
 #include "corrector/gravimeter/gravimeter_file.hpp"
+#include "tests/support/catch.hpp"
 #include "tests/support/temporary_directory.hpp"
 
 /// Lines as the three makes write them, with made-up numbers.

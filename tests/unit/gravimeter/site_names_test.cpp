@@ -1,7 +1,5 @@
 #include "corrector/gravimeter/site_names.hpp"
 
-#include "tests/support/catch.hpp"
-
 #include "corrector/gravimeter/survey_tables.hpp"
 #include "protocol/text/sites.hpp"
 #include "tests/unit/gravimeter/made_up_lines.hpp"

@@ -1,7 +1,5 @@
 #include "corrector/gravimeter/stays.hpp"
 
-#include "tests/support/catch.hpp"
-
 #include "corrector/gravimeter/survey_tables.hpp"
 #include "protocol/core/input_error.hpp"
 #include "tests/unit/gravimeter/made_up_lines.hpp"

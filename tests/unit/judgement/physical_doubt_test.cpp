@@ -1,8 +1,5 @@
 #include "corrector/judgement/physical_doubt.hpp"
 
-#include <cmath>
-#include "tests/support/catch.hpp"
-
 #include "corrector/model/survey_correction.hpp"
 #include "tests/unit/model/survey_rows.hpp"
 

@@ -1,9 +1,7 @@
 #include "corrector/judgement/survey_findings.hpp"
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
-#include "tests/support/catch.hpp"
 
 #include "corrector/model/survey_correction.hpp"
 #include "tests/unit/model/survey_rows.hpp"

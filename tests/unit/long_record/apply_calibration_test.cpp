@@ -1,6 +1,5 @@
 /// A calibration applied to simulated records, and its statistics on known series.
 #include <cmath>
-#include "tests/support/catch.hpp"
 
 #include "corrector/long_record/apply_calibration.hpp"
 #include "tests/unit/long_record/simulated_record.hpp"

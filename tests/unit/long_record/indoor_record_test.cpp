@@ -2,7 +2,6 @@
 /// publication gives (Matsuda et al., tests/golden/tsukuba/README.md).
 #include <cmath>
 #include <map>
-#include "tests/support/catch.hpp"
 
 #include "corrector/long_record/record_result.hpp"
 #include "tests/support/published_ranges.hpp"

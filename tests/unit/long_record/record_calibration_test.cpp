@@ -1,6 +1,5 @@
 /// The thermal part and the warm-up of a calibration from simulated records.
 #include <cmath>
-#include "tests/support/catch.hpp"
 
 #include "corrector/long_record/record_calibration.hpp"
 #include "protocol/linear_algebra/cholesky.hpp"

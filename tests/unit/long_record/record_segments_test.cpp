@@ -1,6 +1,5 @@
 #include <cmath>
 #include <limits>
-#include "tests/support/catch.hpp"
 
 #include "tests/unit/long_record/simulated_record.hpp"
 

@@ -2,7 +2,6 @@
 #include <complex>
 #include <numbers>
 #include <random>
-#include "tests/support/catch.hpp"
 
 #include "corrector/long_record/record_analysis.hpp"
 #include "sim/scenario/survey_plan.hpp"

@@ -2,6 +2,7 @@
 
 #include "corrector/long_record/record_segments.hpp"
 #include "corrector/long_record/two_path_fit.hpp"
+#include "tests/support/catch.hpp"
 #include "tests/support/plant_statistics.hpp"
 
 namespace a351::corrector::long_record {

@@ -3,7 +3,6 @@
 #include <map>
 #include <random>
 #include <utility>
-#include "tests/support/catch.hpp"
 
 #include "tests/support/two_path_truth.hpp"
 #include "tests/unit/long_record/simulated_record.hpp"

@@ -1,5 +1,3 @@
-#include <cmath>
-
 #include "tests/unit/model/corrections.hpp"
 
 using namespace a351::corrector;

@@ -1,8 +1,5 @@
 #include "corrector/model/calibration_use.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 

@@ -1,7 +1,5 @@
 #include "corrector/model/joint_adjustment.hpp"
 
-#include "tests/support/catch.hpp"
-
 #include "corrector/model/model.hpp"
 #include "corrector/model/survey_correction.hpp"
 #include "tests/unit/model/rows_of_day.hpp"

@@ -1,7 +1,5 @@
 #include "corrector/model/linear_models.hpp"
 
-#include <cmath>
-
 #include "protocol/core/input_error.hpp"
 #include "tests/unit/model/corrections.hpp"
 

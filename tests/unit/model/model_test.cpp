@@ -1,7 +1,5 @@
 #include "corrector/model/model.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <set>
 
 #include "corrector/model/linear_models.hpp"

@@ -1,8 +1,5 @@
 #include "corrector/model/network.hpp"
 
-#include <cmath>
-#include <map>
-
 #include "corrector/model/model.hpp"
 #include "protocol/core/input_error.hpp"
 #include "tests/unit/model/corrections.hpp"

@@ -1,8 +1,5 @@
 #include "corrector/model/paper_correction.hpp"
 
-#include <cmath>
-#include "tests/support/catch.hpp"
-
 #include "tests/unit/model/survey_rows.hpp"
 
 using namespace a351;

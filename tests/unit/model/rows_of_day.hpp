@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "corrector/reading/survey_row.hpp"
+#include "tests/support/catch.hpp"
 #include "tests/unit/whole_day/made_up_day.hpp"
 
 namespace a351::corrector::model {

@@ -1,4 +1,3 @@
-#include <cmath>
 #include <random>
 
 #include "tests/unit/model/corrections.hpp"

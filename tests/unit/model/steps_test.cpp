@@ -1,5 +1,3 @@
-#include <cmath>
-
 #include "tests/unit/model/corrections.hpp"
 #include "tests/unit/model/rows_of_day.hpp"
 

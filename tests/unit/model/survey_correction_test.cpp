@@ -1,7 +1,5 @@
 #include "corrector/model/survey_correction.hpp"
 
-#include <cmath>
-
 #include "corrector/model/trend_comparison.hpp"
 #include "protocol/core/input_error.hpp"
 #include "tests/unit/model/corrections.hpp"

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "corrector/reading/survey_row.hpp"
+#include "tests/support/catch.hpp"
 
 namespace a351::corrector::model {
 

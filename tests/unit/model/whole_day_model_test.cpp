@@ -1,7 +1,5 @@
 #include "corrector/model/whole_day_model.hpp"
 
-#include <cmath>
-
 #include "tests/unit/model/corrections.hpp"
 #include "tests/unit/model/rows_of_day.hpp"
 

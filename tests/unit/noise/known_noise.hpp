@@ -6,6 +6,7 @@
 
 #include "protocol/signal/fourier.hpp"
 #include "sim/noise/random.hpp"
+#include "tests/support/catch.hpp"
 
 namespace a351::corrector::noise {
 

@@ -1,6 +1,5 @@
 #include "corrector/noise/record_noise.hpp"
 
-#include "tests/support/catch.hpp"
 #include "tests/unit/noise/known_noise.hpp"
 
 using namespace a351;

@@ -3,7 +3,6 @@
 #include <cstdio>
 #include <numbers>
 
-#include "tests/support/catch.hpp"
 #include "tests/support/long_tests.hpp"
 #include "tests/unit/noise/known_noise.hpp"
 

@@ -1,8 +1,6 @@
 // A made-up morning written as miniSEED, StationXML and occupations, and averaged from there.
 #include "tests/unit/reading/morning.hpp"
 
-#include "tests/support/catch.hpp"
-
 #include "corrector/job/survey_readings.hpp"
 #include "corrector/job/survey_units.hpp"
 #include "protocol/core/input_error.hpp"

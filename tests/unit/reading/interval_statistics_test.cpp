@@ -1,8 +1,5 @@
 #include "corrector/reading/interval_statistics.hpp"
 
-#include <cmath>
-#include "tests/support/catch.hpp"
-
 #include "tests/unit/reading/record.hpp"
 
 using namespace a351::corrector::eemd;

@@ -14,6 +14,7 @@
 #include "protocol/core/utc_time.hpp"
 #include "protocol/events/event_log.hpp"
 #include "protocol/station/station_xml.hpp"
+#include "tests/support/catch.hpp"
 #include "tests/support/temporary_directory.hpp"
 
 namespace a351 {

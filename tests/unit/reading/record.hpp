@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "corrector/reading/representative_value.hpp"
+#include "tests/support/catch.hpp"
 #include "tests/support/white_noise.hpp"
 
 namespace a351::corrector::reading {

@@ -1,8 +1,6 @@
 #include "corrector/reading/representative_value.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include "tests/support/catch.hpp"
 
 #include "tests/unit/reading/record.hpp"
 

@@ -1,5 +1,3 @@
-#include "tests/support/catch.hpp"
-
 #include "tests/support/path_variable.hpp"
 #include "tests/unit/report/evil_report.hpp"
 

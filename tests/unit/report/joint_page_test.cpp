@@ -1,8 +1,6 @@
 #include "corrector/report/joint_page.hpp"
 
-#include <cmath>
 #include <pugixml.hpp>
-#include "tests/support/catch.hpp"
 
 #include "corrector/model/survey_correction.hpp"
 #include "tests/unit/model/survey_rows.hpp"

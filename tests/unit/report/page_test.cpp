@@ -1,7 +1,6 @@
 #include <pugixml.hpp>
 #include <regex>
 #include <set>
-#include "tests/support/catch.hpp"
 
 #include "corrector/report/html.hpp"
 #include "tests/unit/report/evil_report.hpp"

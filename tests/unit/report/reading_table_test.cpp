@@ -1,9 +1,7 @@
 #include "corrector/report/result_tables.hpp"
 
-#include <map>
 #include <pugixml.hpp>
 #include <regex>
-#include "tests/support/catch.hpp"
 
 #include "corrector/model/survey_correction.hpp"
 #include "tests/unit/model/survey_rows.hpp"

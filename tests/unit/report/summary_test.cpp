@@ -1,7 +1,5 @@
 #include "corrector/report/summary.hpp"
 
-#include "tests/support/catch.hpp"
-
 #include "corrector/model/survey_correction.hpp"
 #include "corrector/report/html.hpp"
 #include "tests/unit/model/survey_rows.hpp"

@@ -1,7 +1,6 @@
 #include "corrector/result/answer.hpp"
 
 #include <sstream>
-#include "tests/support/catch.hpp"
 
 #include "corrector/model/survey_correction.hpp"
 #include "corrector/result/table_text.hpp"

@@ -2,7 +2,6 @@
 
 #include <nlohmann/json.hpp>
 #include <system_error>
-#include "tests/support/catch.hpp"
 
 #include "corrector/judgement/physical_doubt.hpp"
 #include "corrector/model/survey_correction.hpp"

@@ -1,8 +1,6 @@
 #include "corrector/tide/tide_series.hpp"
 
-#include <cmath>
 #include <nlohmann/json.hpp>
-#include "tests/support/catch.hpp"
 
 #include "corrector/tide/tide_choice.hpp"
 #include "protocol/core/input_error.hpp"

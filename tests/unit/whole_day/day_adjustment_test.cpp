@@ -1,9 +1,5 @@
 #include "corrector/whole_day/day_adjustment.hpp"
 
-#include <cmath>
-#include <numeric>
-#include "tests/support/catch.hpp"
-
 #include "protocol/linear_algebra/symmetric_eigen.hpp"
 #include "protocol/unit/calibration.hpp"
 #include "tests/unit/whole_day/made_up_day.hpp"

@@ -2,8 +2,6 @@
 
 #include <cstdio>
 
-#include "tests/support/catch.hpp"
-
 #include "corrector/whole_day/unit_posterior.hpp"
 #include "tests/unit/whole_day/made_up_day.hpp"
 

@@ -2,11 +2,7 @@
 #include "corrector/whole_day/column_filter.hpp"
 
 #include <Eigen/Cholesky>
-#include <cmath>
-#include <numbers>
-#include <random>
 #include <utility>
-#include "tests/support/catch.hpp"
 
 #include "tests/unit/whole_day/made_up_day.hpp"
 

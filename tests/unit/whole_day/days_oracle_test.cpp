@@ -2,16 +2,12 @@
 // with white noise too, the noise as a covariance, every unknown a column.
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
-#include <cmath>
 #include <map>
 #include <memory>
-#include <random>
 #include <set>
-#include "tests/support/catch.hpp"
 #include "tests/support/long_tests.hpp"
 
 #include "corrector/adjustment/helmert_block.hpp"
-#include "corrector/whole_day/day_model.hpp"
 #include "tests/unit/whole_day/made_up_day.hpp"
 
 using namespace a351;

@@ -1,8 +1,5 @@
 #include "corrector/whole_day/goodness_of_fit.hpp"
 
-#include <cmath>
-#include "tests/support/catch.hpp"
-
 #include "tests/unit/whole_day/made_up_day.hpp"
 
 using namespace a351;

@@ -1,10 +1,6 @@
 #include "corrector/whole_day/day_model.hpp"
 
-#include <cmath>
 #include <map>
-#include <numeric>
-#include <random>
-#include "tests/support/catch.hpp"
 
 #include "protocol/linear_algebra/cholesky.hpp"
 #include "tests/unit/whole_day/made_up_day.hpp"

@@ -13,6 +13,7 @@
 #include "corrector/whole_day/day_columns.hpp"
 #include "corrector/whole_day/day_model.hpp"
 #include "protocol/unit/thermal_response.hpp"
+#include "tests/support/catch.hpp"
 
 namespace a351::corrector::whole_day {
 

@@ -1,9 +1,6 @@
 /// The temperature of an outer oven in the whole-day model and in the adjustment of several days.
-#include <cmath>
-#include "tests/support/catch.hpp"
 #include "tests/support/long_tests.hpp"
 
-#include "corrector/whole_day/day_model.hpp"
 #include "tests/unit/whole_day/made_up_day.hpp"
 
 using namespace a351;
