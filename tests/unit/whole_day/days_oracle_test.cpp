@@ -222,6 +222,7 @@ public:
         std::vector<std::string> names;
         Vector values;
         Matrix covariance;
+        Real twice_cost = 0.0L;  ///< ln det N + ln det(X'N^-1 X + 1) + y'(N + X X')^-1 y + u'u
     };
 
     /// Returns the least-squares solution by a QR decomposition of the rows and the priors.
@@ -244,6 +245,10 @@ public:
         const Matrix inverse =
             r.triangularView<Eigen::Upper>().solve(Matrix::Identity(count, count));
         solution.covariance = inverse * inverse.transpose();
+        solution.twice_cost = 2.0L * root_.diagonal().array().log().sum() +
+                              2.0L * r.diagonal().array().abs().log().sum() +
+                              (right - all * solution.values).squaredNorm();
+        for (const double u : days_.point.u) solution.twice_cost += u * u;
         return solution;
     }
 
@@ -288,6 +293,8 @@ private:
                    scaled.col(term + 1));
         for (Eigen::Index step = regression.steps_begin(); step < regression.states_begin(); ++step)
             column(of_survey + "step " + std::to_string(step), scaled.col(step + 1));
+        for (Eigen::Index at = regression.outer_begin(); at < regression.on_scale_begin(); ++at)
+            column(of_unit + "outer " + std::to_string(at), scaled.col(at + 1));
         for (Eigen::Index share = 0; share < regression.on_scale(); ++share)
             column(of_unit + "on scale " + std::to_string(share),
                    scaled.col(1 + regression.on_scale_begin() + share));
@@ -454,4 +461,54 @@ TEST_CASE("the uncertainty of gravities contains that of the lags") {
     for (std::uint64_t seed = 1; seed <= problems; ++seed)
         compare(random_days(1000 + seed, 1.0), true, worst);
     CHECK(worst.u < 1e-8);
+}
+
+TEST_CASE("the likelihood and the gravities of a box are those of dense matrices") {
+    std::vector<DayRecord> records = box_of(2, 0.5, 5);
+    records[0] = with_outer_oven(records[0], 2.0, 5.0);
+    const std::vector<std::size_t> unknown{3, 5, 9};
+    const std::vector<DaySurvey> surveys{survey_of(records[0], 0, stations_without(unknown)),
+                                         survey_of(records[1], 1, stations_without(unknown))};
+    std::vector<double> rough_mgal;
+    std::set<std::string> own;
+    for (std::size_t s = 0; s < MadeUpDay::kSites; ++s) {
+        rough_mgal.push_back(MadeUpDay::gravity_mgal(s) + 0.5);
+        own.insert(Dense::own(s));
+    }
+    RandomDays days;
+    days.problem = std::make_shared<const DayProblem>(surveys, rough_mgal);
+    const DayProblem& problem = *days.problem;
+    REQUIRE(problem.groups().size() == 1);
+    // Both lags of either unit; placement; flicker and white noise of either survey; size of the biases,
+    // lag and size of the outer oven's effect of the first unit; size of the biases of the second.
+    const std::vector<DayPoint> points{
+        {{0.1, -0.2, -0.4, 0.2, 0.2, -1.0, 0.1, -0.5, 0.0, 0.3, 0.6, 0.4, 0.0}, 0.6},
+        {{0.1, -0.2, -0.4, 0.2, 0.7, -1.0, 0.1, -0.5, 0.2, 0.3, 0.0, 0.0, 0.0}, 1.0},
+        {std::vector<double>(13), 0.0}};
+    REQUIRE(problem.hypers().size() == points.front().u.size());
+    // Lags, placement, flicker, white, size of the biases, lag and size of the outer oven's effect.
+    CHECK(problem.part_of(points[0], 0) == SurveyPoint{0.1, -0.2, 0.2, -1.0, 0.1, 0.3, 0.6, 0.4});
+    CHECK(problem.part_of(points[0], 1) == SurveyPoint{-0.4, 0.2, 0.2, -0.5, 0.0, 0.0, 0.0, 0.0});
+    for (const DayPoint& point : points) {
+        std::vector<DayProblem::Normal> normals;
+        std::vector<Eigen::MatrixXd> scaled;
+        for (std::size_t k = 0; k < surveys.size(); ++k) {
+            scaled.push_back(problem.of(k).scaled(problem.part_of(point, k)));
+            normals.push_back(problem.of_survey(point, k, scaled[k]));
+        }
+        const auto reduced = problem.reduced(problem.of_group(normals, 0), 0);
+        days.point = point;
+        const Dense::Solution expected = Dense(days).solve(own);
+        CHECK(2.0 * problem.cost(point, reduced) ==
+              Approx(static_cast<double>(expected.twice_cost)).margin(1e-3));
+        const auto solution = problem.solve(point, scaled).surveys;
+        for (const std::size_t number : unknown) {
+            const auto name = std::ranges::find(expected.names, Dense::gravity(number));
+            REQUIRE(name != expected.names.end());
+            const Real gravity = expected.values(name - expected.names.begin());
+            for (const std::size_t k : {0U, 1U})
+                CHECK(kFreeGravity_mgal * solution[k](problem.of(k).place_of(number)) ==
+                      Approx(static_cast<double>(kFreeGravity_mgal * gravity)).margin(1e-4));
+        }
+    }
 }

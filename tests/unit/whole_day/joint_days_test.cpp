@@ -1,13 +1,9 @@
 #include "corrector/whole_day/day_model.hpp"
 
-#include <map>
-
-#include "protocol/linear_algebra/cholesky.hpp"
 #include "tests/unit/whole_day/made_up_day.hpp"
 
 using namespace a351;
 using namespace a351::corrector::whole_day;
-using a351::corrector::reading::DayBin;
 using a351::corrector::reading::DayRecord;
 
 namespace {
@@ -21,125 +17,7 @@ DaySurvey survey_of(const DayRecord& record, std::size_t unit) {
     return corrector::whole_day::survey_of(record, unit, some_known());
 }
 
-/// Returns the records of a box of sensors: a share of the placement's variance is common.
-std::vector<DayRecord> box_of(std::size_t sensors, double share, std::uint64_t seed) {
-    std::mt19937_64 random(seed);
-    std::normal_distribution<double> normal;
-    constexpr double kPlacement_mgal = 1.2;
-    std::vector<double> in_common(MadeUpDay::kSetUps);
-    for (double& value : in_common) value = kPlacement_mgal * std::sqrt(share) * normal(random);
-    std::vector<DayRecord> records;
-    for (std::size_t k = 0; k < sensors; ++k) {
-        const MadeUpDay day{.placement_mgal = kPlacement_mgal * std::sqrt(1.0 - share),
-                            .white_mgal = 0.2};
-        records.push_back(day.record(1000 * seed + k));
-        for (DayBin& bin : records.back().bins)
-            bin.reading = bin.reading + MilliGal(in_common[bin.set_up]);
-    }
-    return records;
-}
-
-/// Returns twice the cost and the gravities by dense matrices: the readings of all surveys have the
-/// covariance of noise, common placement and unknowns.
-std::pair<double, std::vector<double>> dense(const std::vector<DaySurvey>& surveys,
-                                             const DayProblem& problem, const DayPoint& point,
-                                             const std::vector<double>& rough_mgal) {
-    Eigen::Index rows = 0;
-    for (const DaySurvey& survey : surveys) rows += std::ssize(survey.record->bins);
-    Eigen::VectorXd y(rows);
-    Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(rows, rows);
-    std::map<std::string, Eigen::VectorXd> columns;  // of the unknowns, by name
-    Eigen::Index begin = 0;
-    for (std::size_t k = 0; k < surveys.size(); ++k) {
-        const DaySurvey& survey = surveys[k];
-        const Eigen::Index count = std::ssize(survey.record->bins);
-        const Eigen::MatrixXd scaled = problem.of(k).scaled(problem.part_of(point, k));
-        y.segment(begin, count) = scaled.col(0);
-        covariance.block(begin, begin, count, count) =
-            NoiseCovariance(survey.record->bins).at(problem.own_noise(point, k));
-        const auto add = [&](const std::string& name, Eigen::Index column) {
-            columns.emplace(name, Eigen::VectorXd::Zero(rows))
-                .first->second.segment(begin, count) += scaled.col(column + 1);
-        };
-        for (Eigen::Index term = 0; term < kTerms; ++term) {
-            const auto of = static_cast<DayTerm>(term);
-            const bool is_of_day =
-                of == DayTerm::constant || of == DayTerm::drift || of == DayTerm::warm_up;
-            add((is_of_day ? "day " + std::to_string(k) : "unit " + std::to_string(survey.unit)) +
-                    " term " + std::to_string(term),
-                term);
-        }
-        for (Eigen::Index at = problem.of(k).outer_begin(); at < problem.of(k).estimated(); ++at)
-            add("unit " + std::to_string(survey.unit) + " outer " + std::to_string(at), at);
-        for (std::size_t number = 0; number < survey.gravities.size(); ++number)
-            if (const Eigen::Index place = problem.of(k).place_of(number); place >= 0)
-                add("gravity " + std::to_string(survey.gravities[number]), place);
-        begin += count;
-    }
-    if (problem.has_boxes()) {
-        // Bins of one set-up, of whichever sensor, have the common placement together.
-        const double variance =
-            point.share *
-            std::pow(problem.of(0).noise(problem.part_of(point, 0)).placement_mgal, 2);
-        const auto count = static_cast<Eigen::Index>(surveys.front().record->bins.size());
-        for (Eigen::Index i = 0; i < rows; ++i)
-            for (Eigen::Index j = 0; j < rows; ++j)
-                if (surveys.front().record->bins[static_cast<std::size_t>(i % count)].set_up ==
-                    surveys.front().record->bins[static_cast<std::size_t>(j % count)].set_up)
-                    covariance(i, j) += variance;
-    }
-    for (const auto& [name, column] : columns) covariance += column * column.transpose();
-    const linear_algebra::Cholesky factor(covariance);
-    double twice = factor.log_determinant() + factor.half_solve(y).squaredNorm();
-    for (const double u : point.u) twice += u * u;
-    // Expectation of a coefficient of variance 1, given the readings: column' covariance^-1 y.
-    const Eigen::VectorXd solved = factor.solve(y);
-    std::vector<double> gravities = rough_mgal;
-    for (const std::size_t number : kUnknown)
-        gravities[number] +=
-            kFreeGravity_mgal * columns.at("gravity " + std::to_string(number)).dot(solved);
-    return {twice, gravities};
-}
-
 }  // namespace
-
-TEST_CASE("the likelihood and the gravities of a box are those of dense matrices") {
-    std::vector<DayRecord> records = box_of(2, 0.5, 5);
-    records[0] = with_outer_oven(records[0], 2.0, 5.0);
-    const std::vector<DaySurvey> surveys{survey_of(records[0], 0), survey_of(records[1], 1)};
-    std::vector<double> rough_mgal;
-    for (std::size_t s = 0; s < MadeUpDay::kSites; ++s)
-        rough_mgal.push_back(MadeUpDay::gravity_mgal(s) + 0.5);
-    const DayProblem problem(surveys, rough_mgal);
-    REQUIRE(problem.groups().size() == 1);
-    // Both lags of either unit; placement; flicker and white noise of either survey; size of the biases,
-    // lag and size of the outer oven's effect of the first unit; size of the biases of the second.
-    const std::vector<DayPoint> points{
-        {{0.1, -0.2, -0.4, 0.2, 0.2, -1.0, 0.1, -0.5, 0.0, 0.3, 0.6, 0.4, 0.0}, 0.6},
-        {{0.1, -0.2, -0.4, 0.2, 0.7, -1.0, 0.1, -0.5, 0.2, 0.3, 0.0, 0.0, 0.0}, 1.0},
-        {std::vector<double>(13), 0.0}};
-    REQUIRE(problem.hypers().size() == points.front().u.size());
-    // Lags, placement, flicker, white, size of the biases, lag and size of the outer oven's effect.
-    CHECK(problem.part_of(points[0], 0) == SurveyPoint{0.1, -0.2, 0.2, -1.0, 0.1, 0.3, 0.6, 0.4});
-    CHECK(problem.part_of(points[0], 1) == SurveyPoint{-0.4, 0.2, 0.2, -0.5, 0.0, 0.0, 0.0, 0.0});
-    for (const DayPoint& point : points) {
-        std::vector<DayProblem::Normal> normals;
-        std::vector<Eigen::MatrixXd> scaled;
-        for (std::size_t k = 0; k < surveys.size(); ++k) {
-            scaled.push_back(problem.of(k).scaled(problem.part_of(point, k)));
-            normals.push_back(problem.of_survey(point, k, scaled[k]));
-        }
-        const auto reduced = problem.reduced(problem.of_group(normals, 0), 0);
-        const auto [twice, gravities] = dense(surveys, problem, point, rough_mgal);
-        CHECK(2.0 * problem.cost(point, reduced) == Approx(twice).margin(1e-3));
-        const auto solution = problem.solve(point, scaled).surveys;
-        for (const std::size_t number : kUnknown)
-            for (const std::size_t k : {0U, 1U})
-                CHECK(rough_mgal[number] +
-                          kFreeGravity_mgal * solution[k](problem.of(k).place_of(number)) ==
-                      Approx(gravities[number]).margin(1e-4));
-    }
-}
 
 TEST_CASE("a day in one face and one in two have the same slopes") {
     // Half of the response acts on the scale, which the day in one face cannot see.

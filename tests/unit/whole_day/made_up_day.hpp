@@ -105,11 +105,29 @@ struct MadeUpDay {
 /// The day with the usual scatter.
 inline const MadeUpDay kScattered{.placement_mgal = 1.2, .white_mgal = 0.2};
 
-/// Adds an error to the readings of a set-up, or of all set-ups until `end`.
-inline void add(reading::DayRecord& day, std::size_t set_up, double mgal, std::size_t end = 0) {
+/// Adds an error to the readings of a set-up.
+inline void add(reading::DayRecord& day, std::size_t set_up, double mgal) {
     for (reading::DayBin& bin : day.bins)
-        if (bin.set_up == set_up || (bin.set_up > set_up && bin.set_up < end))
-            bin.reading = bin.reading + MilliGal(mgal);
+        if (bin.set_up == set_up) bin.reading = bin.reading + MilliGal(mgal);
+}
+
+/// Returns the records of a box of sensors: a share of the placement's variance is common.
+inline std::vector<reading::DayRecord> box_of(std::size_t sensors, double share,
+                                              std::uint64_t seed) {
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> normal;
+    constexpr double kPlacement_mgal = 1.2;
+    std::vector<double> in_common(MadeUpDay::kSetUps);
+    for (double& value : in_common) value = kPlacement_mgal * std::sqrt(share) * normal(random);
+    std::vector<reading::DayRecord> records;
+    for (std::size_t k = 0; k < sensors; ++k) {
+        const MadeUpDay day{.placement_mgal = kPlacement_mgal * std::sqrt(1.0 - share),
+                            .white_mgal = 0.2};
+        records.push_back(day.record(1000 * seed + k));
+        for (reading::DayBin& bin : records.back().bins)
+            bin.reading = bin.reading + MilliGal(in_common[bin.set_up]);
+    }
+    return records;
 }
 
 inline constexpr std::chrono::hours kOneDay(24);
