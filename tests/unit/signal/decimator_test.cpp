@@ -14,6 +14,7 @@ namespace a351::signal {
 namespace {
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 /// Returns the outputs one by one from the definition in decimation.hpp, with the terms added from
 /// the outside in.
@@ -34,12 +35,12 @@ std::vector<double> by_definition(const std::vector<double>& input,
     return output;
 }
 
-/// Returns white noise in which about one sample in 300 is missing.
+/// Returns white noise in which about one sample in 600 is missing, and one is infinite.
 std::vector<double> noise_with_gaps(std::size_t n) {
     std::vector<double> values(n);
     fill_white_noise(7, n, values);
     for (double& value : values) {
-        if (std::abs(value) > 2.95) value = kMissing;
+        if (std::abs(value) > 2.95) value = value > 0.0 ? kMissing : kInfinite;
     }
     return values;
 }
@@ -64,7 +65,9 @@ std::vector<double> in_blocks(const std::vector<double>& input, const Decimation
 
 }  // namespace
 
-TEST_CASE("every output has the same bits as its definition, for any factor and length") {
+TEST_CASE(
+    "every output has the same bits as its definition, for any factor and length, also around a "
+    "missing or infinite sample") {
     for (const int factor : {2, 3, 5, 7, 10, 13, 16, 50}) {
         const DecimationFilter filter = design_decimation(factor);
         for (const std::size_t n : {0U, 1U, 9U, 82U, 83U, 84U, 640U, 719U, 720U, 721U, 5003U}) {

@@ -14,7 +14,7 @@ inline constexpr double kDeg_mgal = 980665.0 * 3.141592653589793 / 180.0;
 /// A box on quiet ground: 10 mGal of noise on each decimated axis, a shake of 60 mGal.
 class MadeUpBox {
 public:
-    explicit MadeUpBox(unsigned seed) : random_(seed) {}
+    explicit MadeUpBox(unsigned seed, double rest_s = 0.0) : random_(seed) { rest(rest_s); }
 
     /// Returns a box that is moved after moved_s(), and is then at rest.
     /// @param kind  0: carried to the car, driven, set down at another benchmark; 1: lifted by 10 cm and

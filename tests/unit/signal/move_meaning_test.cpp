@@ -62,8 +62,7 @@ TEST_CASE("a move up to ten minutes before Next set-up is the change of set-ups"
           "[signal][moved_box]") {
     for (const double before_s : {24.0, 60.0, 120.0, 300.0, 594.0, 606.0}) {
         CAPTURE(before_s);
-        MadeUpBox box(1);
-        box.rest(360.0);
+        MadeUpBox box(1, 360.0);
         lift(box, before_s - 20.0, 20.0);
         const auto of = judged(box, SetUpEnd::next_set_up);
         if (before_s > 600.0) {
@@ -77,8 +76,7 @@ TEST_CASE("a move up to ten minutes before Next set-up is the change of set-ups"
         }
         CHECK(of.at_start == MoveMeaning::none);
     }
-    MadeUpBox kicked(2);  // and set down at another level without a hand that shakes it
-    kicked.rest(360.0);
+    MadeUpBox kicked(2, 360.0);  // and set down at another level without a hand that shakes it
     kicked.turn(0.05);
     kicked.rest(120.0);
     CHECK(judged(kicked, SetUpEnd::next_set_up).at_end == MoveMeaning::change_of_set_ups);
@@ -87,18 +85,16 @@ TEST_CASE("a move up to ten minutes before Next set-up is the change of set-ups"
 TEST_CASE("a move with a drive is no change of set-ups", "[signal][moved_box]") {
     for (const double drive_s : {116.0, 124.0}) {
         CAPTURE(drive_s);
-        MadeUpBox before(1), after(1);
-        before.rest(360.0);
+        MadeUpBox before(1, 360.0), after(1, 30.0);
         lift(before, 60.0, drive_s);
         CHECK(judged(before, SetUpEnd::next_set_up).at_end ==
               (drive_s > 120.0 ? MoveMeaning::late_stop : MoveMeaning::change_of_set_ups));
-        after.rest(30.0);
         lift(after, 360.0, drive_s);
         CHECK(judged(after, SetUpEnd::stop, true).at_start ==
               (drive_s > 120.0 ? MoveMeaning::early_start : MoveMeaning::change_of_set_ups));
     }
-    MadeUpBox levelled(2);  // a minute at rest ends a drive, and levelling in two goes is none
-    levelled.rest(360.0);
+    MadeUpBox levelled(2,
+                       360.0);  // a minute at rest ends a drive, and levelling in two goes is none
     lift(levelled, 90.0, 70.0);
     lift(levelled, 90.0, 70.0);
     const auto of = judged(levelled, SetUpEnd::next_set_up);
@@ -127,15 +123,13 @@ TEST_CASE("a move up to a minute after Next set-up is the change of set-ups",
 
 TEST_CASE("an earlier move in a set-up that Next set-up ends is not part of the change",
           "[signal][moved_box]") {
-    MadeUpBox lifted(1), kicked(1);
-    lifted.rest(300.0);
+    MadeUpBox lifted(1, 300.0), kicked(1, 300.0);
     lift(lifted, 240.0);
     lift(lifted, 60.0);
     const auto of = judged(lifted, SetUpEnd::next_set_up);
     CHECK(of.at_end == MoveMeaning::forgotten_set_up);
     REQUIRE(of.forgotten.size() == 1);
     CHECK(std::abs(seconds_of(lifted, of.forgotten.front().before) - 300.0) < 15.0);
-    kicked.rest(300.0);
     kicked.shake(2.0, 15000.0);
     kicked.turn(0.05);
     kicked.rest(240.0);
@@ -178,13 +172,11 @@ TEST_CASE("a lift and a minute at rest before the stop are a forgotten set-up, n
     CHECK(lifted >= 0.95 * kEach);
     CHECK(carried == 0);
     CHECK(briefly == 0);
-    MadeUpBox jumped(1);  // at another level without a hand at it
-    jumped.rest(300.0);
+    MadeUpBox jumped(1, 300.0);  // at another level without a hand at it
     jumped.place(0.0);
     jumped.rest(300.0);
     CHECK(judged(jumped).at_end == MoveMeaning::late_stop);
-    MadeUpBox still(1);
-    still.rest(600.0);
+    MadeUpBox still(1, 600.0);
     CHECK(judged(still).part == whole(still));
 }
 
@@ -192,21 +184,18 @@ TEST_CASE(
     "while a set-up runs a lift may be the change until the box was at rest for three minutes",
     "[signal][moved_box]") {
     const auto meaning = [](const MadeUpBox& box) { return judged(box, SetUpEnd::running).at_end; };
-    MadeUpBox box(1);
-    box.rest(360.0);
+    MadeUpBox box(1, 360.0);
     lift(box, 170.0);
     CHECK(meaning(box) == MoveMeaning::may_be_change);
     box.rest(40.0);
     CHECK(meaning(box) == MoveMeaning::forgotten_set_up);
-    MadeUpBox driven(2);
-    driven.rest(360.0);
+    MadeUpBox driven(2, 360.0);
     lift(driven, 60.0);
     driven.shake(70.0, 20000.0);
     CHECK(meaning(driven) == MoveMeaning::may_be_change);
     driven.shake(60.0, 20000.0);
     CHECK(meaning(driven) == MoveMeaning::late_stop);
-    MadeUpBox carried(3);
-    carried.rest(360.0);
+    MadeUpBox carried(3, 360.0);
     carried.shake(100.0, 20000.0);
     CHECK(meaning(carried) == MoveMeaning::may_be_change);
     carried.shake(40.0, 20000.0);
@@ -214,11 +203,8 @@ TEST_CASE(
 }
 
 TEST_CASE("what the operator says was no move does not cut the stay", "[signal][moved_box]") {
-    MadeUpBox early(1);
-    early.rest(60.0);
-    early.shake(80.0, 20000.0);
-    early.place(0.0);
-    early.rest(300.0);
+    MadeUpBox early(1, 60.0);
+    lift(early, 300.0, 80.0);
     CHECK(judged(early).part.first > 0);
     CHECK(answered(early, early.samples().back().time).part == whole(early));
 
@@ -233,15 +219,12 @@ TEST_CASE("what the operator says was no move does not cut the stay", "[signal][
     CHECK(judged(shaken).part == StillPart{});
     CHECK(answered(shaken, shaken.samples().back().time).part == whole(shaken));
 
-    MadeUpBox late(3);  // answered at once, then carried off
-    late.rest(300.0);
+    MadeUpBox late(3, 300.0);  // answered at once, then carried off
     late.shake(80.0, 20000.0);
     late.rest(100.0);
     const UtcTime answer = late.samples().back().time;
     CHECK(answered(late, answer).part == whole(late));
-    late.shake(20.0, 20000.0);
-    late.place(0.0);
-    late.rest(100.0);
+    lift(late, 100.0, 20.0);
     const StillPart part = answered(late, answer).part;
     CHECK(part.first == 0);
     CHECK(part.end < late.samples().size());
@@ -249,32 +232,23 @@ TEST_CASE("what the operator says was no move does not cut the stay", "[signal][
     CHECK(judge_moves({}, {.start = answer, .end = answer}).part == StillPart{});
 }
 
-TEST_CASE("a start that was pressed too early is moved to where the box stands",
+TEST_CASE("a stay that was started or stopped in the car has no drive, one in the car is none",
           "[signal][moved_box]") {
-    MadeUpBox box(1);
-    box.rest(60.0);  // in the parked car
-    box.shake(40.0, 20000.0);
-    box.place(0.0);
-    const double down_s = box.now_s();
-    box.rest(500.0);
-    const auto of = judged(box);
-    CHECK(of.at_start == MoveMeaning::early_start);
-    CHECK(of.part.end == box.samples().size());
-    CHECK(std::abs(seconds_of(box, of.part.first) - down_s) <= 14.0);
-}
+    MadeUpBox early(1, 60.0);
+    lift(early, 500.0);
+    const auto begun = judged(early);
+    CHECK(begun.at_start == MoveMeaning::early_start);
+    CHECK(begun.part.end == early.samples().size());
+    CHECK(std::abs(seconds_of(early, begun.part.first) - 100.0) <= 14.0);
 
-TEST_CASE("a stay that was stopped in the car ends before the drive, one in the car is none",
-          "[signal][moved_box]") {
-    MadeUpBox box(1);
-    box.rest(300.0);
+    MadeUpBox box(1, 300.0);
     box.shake(90.0, 20000.0);
     const auto of = judged(box);
     CHECK(of.at_end == MoveMeaning::late_stop);
     CHECK(of.part.first == 0);
     CHECK(std::abs(seconds_of(box, of.part.end) - 300.0) <= 14.0);
 
-    MadeUpBox handled(2);
-    handled.rest(300.0);
+    MadeUpBox handled(2, 300.0);
     handled.shake(40.0, 20000.0);  // hands at the end of a stay are usual
     CHECK(judged(handled).part == whole(handled));
 
