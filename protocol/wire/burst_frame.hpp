@@ -159,7 +159,7 @@ private:
 ///
 /// Exactly layout.frame_size() bytes are appended, markers and checksum included.  Values of fields
 /// that the layout lacks are ignored, so a decoder returns them as zero.  All others are decoded to
-/// the same values, for every layout (burst_frame_test.cpp).
+/// the same values, for every layout (burst_decoder_test.cpp).
 ///
 /// @param out  is not cleared; it allocates only if its capacity is too small.
 void append_frame(const BurstLayout& layout, const BurstValues& values,

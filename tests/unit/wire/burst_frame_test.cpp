@@ -13,9 +13,6 @@
 namespace a351::wire {
 namespace {
 
-// Tolerance of physical values, which are given to the last digit printed in their source.
-constexpr double kLastDigit = 6e-12;
-
 Bytes encode(std::uint16_t burst_ctrl, const BurstValues& values) {
     Bytes bytes;
     append_frame(layout_of(burst_ctrl), values, bytes);
@@ -61,8 +58,7 @@ std::string offset_of(const Bytes& frame, std::size_t end, const Bytes& pattern)
 // bit both signs are the same modulo 65536.  With n words of data, k of which have a one at a bit:
 // k (n - k) pairs of data words, and each data word whose bit equals that of the checksum; at the
 // highest bit n (n - 1) / 2 and n.
-TEST_CASE("the word sum sees every flipped bit, and of two all but those that cancel",
-          "[wire][burst_frame]") {
+TEST_CASE("the word sum sees every flipped bit, and of two all but those that cancel") {
     BurstValues values;
     values.flag = 0x8E00;
     values.temperature = -1975 * 65'536 + 12'345;
@@ -103,8 +99,7 @@ TEST_CASE("the word sum sees every flipped bit, and of two all but those that ca
     CHECK(accepted == derived);
 }
 
-TEST_CASE("each of the 112 layouts has its fields at the offsets of the reference table",
-          "[wire][burst_layout]") {
+TEST_CASE("each of the 112 layouts has its fields at the offsets of the reference table") {
     const auto table = text::read_csv(A351_GOLDEN "/wire/burst_layouts.csv");
     REQUIRE(table.row_count() == 112);
     const BurstValues marks{.flag = 0x1112,
@@ -127,17 +122,18 @@ TEST_CASE("each of the 112 layouts has its fields at the offsets of the referenc
         const std::string& checksum = table.cell(row, "checksum");
         const std::size_t end = checksum.empty() ? frame.size() - 1 : std::stoul(checksum);
         CHECK(end == frame.size() - (checksum.empty() ? 1U : 3U));
-        CHECK(offset_of(frame, end, to_bytes({0x11, 0x12})) == table.cell(row, "flag"));
-        CHECK(offset_of(frame, end, to_bytes({0x21, 0x22, 0x23, 0x24})) ==
-              table.cell(row, "temperature"));
-        CHECK(offset_of(frame, end, to_bytes({0x31, 0x32, 0x33, 0x34})) == table.cell(row, "x"));
-        CHECK(offset_of(frame, end, to_bytes({0x41, 0x42, 0x43, 0x44})) == table.cell(row, "y"));
-        CHECK(offset_of(frame, end, to_bytes({0x51, 0x52, 0x53, 0x54})) == table.cell(row, "z"));
-        CHECK(offset_of(frame, end, to_bytes({0x61, 0x62})) == table.cell(row, "count"));
+        for (const auto& [field, mark, size] :
+             {std::tuple("flag", 0x11, 2U), std::tuple("temperature", 0x21, 4U),
+              std::tuple("x", 0x31, 4U), std::tuple("y", 0x41, 4U), std::tuple("z", 0x51, 4U),
+              std::tuple("count", 0x61, 2U)}) {
+            Bytes pattern = to_bytes({mark, mark + 1, mark + 2, mark + 3});
+            pattern.resize(size);
+            CHECK(offset_of(frame, end, pattern) == table.cell(row, field));
+        }
     }
 }
 
-TEST_CASE("exactly 112 of the 65536 values of BURST_CTRL are layouts", "[wire][burst_layout]") {
+TEST_CASE("exactly 112 of the 65536 values of BURST_CTRL are layouts") {
     int valid = 0;
     for (unsigned value = 0; value <= 0xFFFF; ++value) {
         if (BurstLayout::from_burst_ctrl(static_cast<std::uint16_t>(value))) ++valid;
@@ -148,26 +144,7 @@ TEST_CASE("exactly 112 of the 65536 values of BURST_CTRL are layouts", "[wire][b
     CHECK(BurstLayout::recommended().burst_ctrl() == 0xC703);
 }
 
-TEST_CASE("any frame of any layout is decoded to the values that were encoded",
-          "[wire][burst_frame]") {
-    std::mt19937_64 generator(1);
-    for (unsigned burst_ctrl = 0; burst_ctrl <= 0xFFFF; ++burst_ctrl) {
-        const auto layout = BurstLayout::from_burst_ctrl(static_cast<std::uint16_t>(burst_ctrl));
-        if (!layout) continue;
-        BurstValues values = values_at(*layout, 0);
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            if (layout->has_axis(static_cast<Axis>(axis))) {
-                values.axes[axis] = static_cast<std::int32_t>(generator() >> 32);
-            }
-        }
-        if (layout->has_temperature()) {
-            values.temperature = static_cast<std::int32_t>(generator() >> 32);
-        }
-        check_both_ways(layout->burst_ctrl(), encode(layout->burst_ctrl(), values), values);
-    }
-}
-
-TEST_CASE("the checksum of the data sheet's example is reproduced", "[wire][burst_frame]") {
+TEST_CASE("the checksum of the data sheet's example is reproduced") {
     // M-A352AD10 data sheet, rev. 20251023, 6.2.4.
     const Bytes words =
         to_bytes({0xFE, 0x01, 0xC4, 0x55, 0x40, 0x00, 0x00, 0x52, 0x33, 0xC0, 0x00, 0x43,
@@ -176,10 +153,9 @@ TEST_CASE("the checksum of the data sheet's example is reproduced", "[wire][burs
     CHECK(burst_checksum(words) == 0x11B4);
 }
 
-// The raw values of the next three tests are from the register dump of a real M-A352, printed in
+// The raw values of the next test are from the register dump of a real M-A352, printed in
 // the README of Epson's ess_accl_ros2_driver. Scales: data sheet table 2.3, 7.6, 7.7.
-TEST_CASE("a frame with all fields is decoded to the values of the register dump",
-          "[wire][burst_frame]") {
+TEST_CASE("a frame with all, some or no further fields has the values of the register dump") {
     const Bytes frame =
         to_bytes({0x80, 0x8E, 0x00, 0x00, 0x00, 0x09, 0xA2, 0xFF, 0xFC, 0xE3, 0x88, 0x00,
                   0x09, 0x3A, 0x7A, 0x00, 0xFF, 0x06, 0x24, 0x07, 0xD0, 0xC4, 0x9C, 0x0D});
@@ -192,76 +168,51 @@ TEST_CASE("a frame with all fields is decoded to the values of the register dump
     CHECK(x_g(values, 2) == Approx(0.996187449).margin(5e-10));
     const auto milligal = to_milligal(find_profile("A352AD10")->acceleration(values.axes[0]));
     CHECK(milligal.value() == Approx(-11918.2).margin(0.05));
-}
-
-TEST_CASE("a frame of the factory layout, without checksum, is decoded", "[wire][burst_frame]") {
-    const Bytes frame = to_bytes({0x80, 0x00, 0x00, 0x09, 0xA2, 0xFF, 0xFC, 0xE3, 0x88, 0x00,
-                                  0x09, 0x3A, 0x7A, 0x00, 0xFF, 0x06, 0x24, 0x00, 0x14, 0x0D});
-    check_both_ways(0x4702, frame,
-                    {.temperature = 2466, .axes = {-203896, 604794, 16713252}, .count = 20});
-}
-
-TEST_CASE("a frame with three axes and nothing else is decoded", "[wire][burst_frame]") {
-    const Bytes frame = to_bytes(
-        {0x80, 0xFF, 0xFC, 0xE3, 0x88, 0x00, 0x09, 0x3A, 0x7A, 0x00, 0xFF, 0x06, 0x24, 0x0D});
-    check_both_ways(0x0700, frame, {.axes = {-203896, 604794, 16713252}});
-}
-
-TEST_CASE("markers inside the data are data", "[wire][burst_frame]") {
-    const Bytes frame =
-        to_bytes({0x80, 0x8E, 0x00, 0xFF, 0xFF, 0xF8, 0x43, 0x00, 0x0D, 0x80, 0x0D, 0x80,
-                  0x0D, 0x0D, 0x00, 0x01, 0x0D, 0x0D, 0x80, 0x0D, 0x80, 0xAF, 0x76, 0x0D});
-    const BurstValues values{.flag = 0x8E00,
-                             .temperature = -1981,
-                             .axes = {884749, -2146628352, 17632640},
-                             .count = 0x0D80};
-    check_both_ways(0xC703, frame, values);
-    CHECK(temperature_degc(values) == Approx(42.49856).margin(5e-6));
-    CHECK(x_g(values, 0) == Approx(0.05273514986).margin(kLastDigit));
-    CHECK(x_g(values, 1) == Approx(-127.94902038574).margin(kLastDigit));
-    CHECK(x_g(values, 2) == Approx(1.05098724365).margin(kLastDigit));
+    // The factory layout, without checksum.
+    check_both_ways(0x4702, to_bytes({0x80, 0x00, 0x00, 0x09, 0xA2, 0xFF, 0xFC, 0xE3, 0x88, 0x00,
+                                      0x09, 0x3A, 0x7A, 0x00, 0xFF, 0x06, 0x24, 0x00, 0x14, 0x0D}),
+                    {.temperature = 2466, .axes = values.axes, .count = 20});
+    check_both_ways(0x0700,
+                    to_bytes({0x80, 0xFF, 0xFC, 0xE3, 0x88, 0x00, 0x09, 0x3A, 0x7A, 0x00, 0xFF,
+                              0x06, 0x24, 0x0D}),
+                    {.axes = values.axes});
 }
 
 // Sources of the special values: data sheet 5.13, 7.4, 7.7.
-TEST_CASE("an axis at its alarm limit sets a flag and is clamped at 15 g", "[wire][burst_frame]") {
-    const Bytes frame =
-        to_bytes({0x80, 0x8E, 0x10, 0xFF, 0xFF, 0xF8, 0x43, 0x0F, 0x00, 0x00, 0x00, 0x00,
-                  0x00, 0x00, 0x00, 0x00, 0xFF, 0xBE, 0x77, 0x00, 0x28, 0x54, 0xF0, 0x0D});
-    const BurstValues values{
+TEST_CASE("an axis at its alarm limit is 15 g, with an illegal filter 100 g, a tilt 60 degrees") {
+    const BurstValues alarm{
         .flag = 0x8E10, .temperature = -1981, .axes = {0x0F000000, 0, 16760439}, .count = 40};
-    check_both_ways(0xC703, frame, values);
-    CHECK((values.flag & kFlagAlarms) != 0);
-    CHECK(x_g(values, 0) == 15.0);
-    CHECK(x_g(values, 2) == Approx(0.99899858).margin(5e-9));
-}
+    check_both_ways(
+        0xC703, to_bytes({0x80, 0x8E, 0x10, 0xFF, 0xFF, 0xF8, 0x43, 0x0F, 0x00, 0x00, 0x00, 0x00,
+                          0x00, 0x00, 0x00, 0x00, 0xFF, 0xBE, 0x77, 0x00, 0x28, 0x54, 0xF0, 0x0D}),
+        alarm);
+    CHECK((alarm.flag & kFlagAlarms) != 0);
+    CHECK(x_g(alarm, 0) == 15.0);
+    CHECK(x_g(alarm, 2) == Approx(0.99899858).margin(5e-9));
 
-TEST_CASE("an illegal pair of rate and filter is shown by the flag and by 100 g on each axis",
-          "[wire][burst_frame]") {
-    const Bytes frame =
-        to_bytes({0x80, 0x8E, 0x02, 0xFF, 0xFF, 0xF8, 0x43, 0x64, 0x00, 0x00, 0x00, 0x64,
-                  0x00, 0x00, 0x00, 0x64, 0x00, 0x00, 0x00, 0x00, 0x28, 0xB2, 0x6C, 0x0D});
-    const BurstValues values{.flag = 0x8E02,
-                             .temperature = -1981,
-                             .axes = {0x64000000, 0x64000000, 0x64000000},
-                             .count = 40};
-    check_both_ways(0xC703, frame, values);
-    CHECK((values.flag & kFlagAliasing) != 0);
-    CHECK(x_g(values, 0) == 100.0);
-}
+    const BurstValues illegal{.flag = 0x8E02,
+                              .temperature = -1981,
+                              .axes = {0x64000000, 0x64000000, 0x64000000},
+                              .count = 40};
+    check_both_ways(
+        0xC703, to_bytes({0x80, 0x8E, 0x02, 0xFF, 0xFF, 0xF8, 0x43, 0x64, 0x00, 0x00, 0x00, 0x64,
+                          0x00, 0x00, 0x00, 0x64, 0x00, 0x00, 0x00, 0x00, 0x28, 0xB2, 0x6C, 0x0D}),
+        illegal);
+    CHECK((illegal.flag & kFlagAliasing) != 0);
+    CHECK(x_g(illegal, 0) == 100.0);
 
-TEST_CASE("the tilt output is 60 degrees at its limits", "[wire][burst_frame]") {
-    const Bytes frame = to_bytes({0x80, 0x21, 0x82, 0xA4, 0x70, 0xDE, 0x7D, 0x5B, 0x90, 0x0C, 0x15,
-                                  0x23, 0x82, 0x2F, 0x96, 0x0D});
-    const BurstValues values{.axes = {0x2182A470, -0x2182A470, 0x0C152382}};
-    check_both_ways(0x0701, frame, values);
+    const BurstValues tilt{.axes = {0x2182A470, -0x2182A470, 0x0C152382}};
+    check_both_ways(0x0701,
+                    to_bytes({0x80, 0x21, 0x82, 0xA4, 0x70, 0xDE, 0x7D, 0x5B, 0x90, 0x0C, 0x15,
+                              0x23, 0x82, 0x2F, 0x96, 0x0D}),
+                    tilt);
     const int bits = find_profile("A352AD10")->tilt_fraction_bits;
-    CHECK(std::ldexp(values.axes[0], -bits) == Approx(std::numbers::pi / 3).margin(2e-9));
-    CHECK(std::ldexp(values.axes[1], -bits) == Approx(-std::numbers::pi / 3).margin(2e-9));
-    CHECK(std::ldexp(values.axes[2], -bits) == Approx(0.37758041).margin(5e-9));
+    CHECK(std::ldexp(tilt.axes[0], -bits) == Approx(std::numbers::pi / 3).margin(2e-9));
+    CHECK(std::ldexp(tilt.axes[1], -bits) == Approx(-std::numbers::pi / 3).margin(2e-9));
+    CHECK(std::ldexp(tilt.axes[2], -bits) == Approx(0.37758041).margin(5e-9));
 }
 
-TEST_CASE("each of the 256 byte values is decoded in each position of the payload",
-          "[wire][burst_frame][burst_decoder]") {
+TEST_CASE("each of the 256 byte values is decoded in each position of the payload") {
     const BurstLayout layout = BurstLayout::recommended();
     const std::size_t checksum_at = layout.frame_size() - 3;
     for (std::size_t at = 1; at < checksum_at; ++at) {

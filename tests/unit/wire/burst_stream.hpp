@@ -9,7 +9,6 @@
 #include <ostream>
 #include <random>
 #include <span>
-#include <utility>
 #include <variant>
 #include <vector>
 

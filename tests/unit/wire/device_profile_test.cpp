@@ -1,6 +1,5 @@
 #include "protocol/wire/device_profile.hpp"
 
-#include <algorithm>
 #include <map>
 #include <string>
 #include "tests/support/catch.hpp"
@@ -12,8 +11,7 @@ using Names = std::vector<std::string_view>;
 
 }  // namespace
 
-TEST_CASE("profiles are found by name, and only the documented one is verified",
-          "[wire][device_profile]") {
+TEST_CASE("profiles are found by name, and only the documented one is verified") {
     CHECK(profile_names() == std::vector<std::string>{"A351", "A352AD10", "A370AD10"});
     CHECK_FALSE(find_profile("A370AD10")->is_verified);
     const DeviceProfile* documented = find_profile("A352AD10");
@@ -27,9 +25,17 @@ TEST_CASE("profiles are found by name, and only the documented one is verified",
     CHECK(find_profile("") == nullptr);
 }
 
-TEST_CASE("the unverified profile has the scales of the documented one", "[wire][device_profile]") {
+TEST_CASE("scales are those of the data sheet, and the unverified profile has the same") {
     const DeviceProfile& documented = *find_profile("A352AD10");
     const DeviceProfile& copy = *find_profile("A351");
+    CHECK(documented.acceleration(1).value() == 5.9604644775390625e-8);  // 2^-24, table 2.3
+    CHECK(documented.acceleration(1 << 24).value() == 1.0);
+    CHECK(to_milligal(documented.acceleration(1)).value() ==
+          Approx(0.05845218896865844).epsilon(1e-15));
+    // Data sheet 7.6: 2634 counts at 25 degC.
+    CHECK(documented.temperature(2634).value() == Approx(25.0).margin(0.0019));  // half a count
+    CHECK(documented.temperature(-1981).value() == Approx(42.4986).margin(5e-5));
+    CHECK(documented.temperature_counts(DegC(42.4986)) == -1981);
     for (const std::int32_t counts : {-2147483647 - 1, -1, 0, 1, 16713252, 2147483647}) {
         CHECK(copy.acceleration(counts) == documented.acceleration(counts));
         CHECK(copy.temperature(counts) == documented.temperature(counts));
@@ -38,23 +44,7 @@ TEST_CASE("the unverified profile has the scales of the documented one", "[wire]
     CHECK(copy.noise_ug_per_sqrt_hz == 0.2);
 }
 
-TEST_CASE("one count of acceleration is exactly 2^-24 g", "[wire][device_profile]") {
-    const DeviceProfile& profile = *find_profile("A352AD10");
-    CHECK(profile.acceleration(1).value() == 5.9604644775390625e-8);  // table 2.3
-    CHECK(profile.acceleration(1 << 24).value() == 1.0);
-    CHECK(to_milligal(profile.acceleration(1)).value() ==
-          Approx(0.05845218896865844).epsilon(1e-15));
-}
-
-TEST_CASE("temperature falls with rising counts, as published", "[wire][device_profile]") {
-    // Data sheet 7.6: 2634 counts at 25 degC.
-    const DeviceProfile& profile = *find_profile("A352AD10");
-    CHECK(profile.temperature(2634).value() == Approx(25.0).margin(0.0019));  // half a count
-    CHECK(profile.temperature(-1981).value() == Approx(42.4986).margin(5e-5));
-    CHECK(profile.temperature_counts(DegC(42.4986)) == -1981);
-}
-
-TEST_CASE("the A370 differs from the A352 as its brief sheet says", "[wire][device_profile]") {
+TEST_CASE("the A370 differs from the A352 as its brief sheet says") {
     const DeviceProfile& profile = *find_profile("A370AD10");
     CHECK(profile.product_id_prefix == "A370AD10");
     CHECK(profile.acceleration(1 << 24).value() == 1.0);
@@ -66,15 +56,11 @@ TEST_CASE("the A370 differs from the A352 as its brief sheet says", "[wire][devi
     CHECK(profile.start_up == std::chrono::milliseconds(1100));
 }
 
-TEST_CASE("COUNT steps are those of the data sheet", "[wire][device_profile]") {
+TEST_CASE("COUNT steps and group delays are those of the data sheet") {
     const DeviceProfile& profile = *find_profile("A352AD10");
     const std::map<int, int> steps{{1000, 4}, {500, 8}, {200, 20}, {100, 40}, {50, 80}};  // 7.5
     REQUIRE(profile.output_rates_hz.size() == steps.size());
     for (const auto& [rate_hz, step] : steps) CHECK(profile.count_step(rate_hz) == step);
-}
-
-TEST_CASE("group delays are those of the data sheet", "[wire][device_profile]") {
-    const DeviceProfile& profile = *find_profile("A352AD10");
     const std::map<int, int> delays_us{{64, 7'875}, {128, 15'875}, {512, 63'875}};  // table 5.3
     for (const FilterSpec& filter : profile.filters) {
         if (filter.is_user) continue;
@@ -83,8 +69,7 @@ TEST_CASE("group delays are those of the data sheet", "[wire][device_profile]") 
     }
 }
 
-TEST_CASE("the filters allowed at each rate are those of the data sheet",
-          "[wire][device_profile]") {
+TEST_CASE("the filters allowed at each rate are those of the data sheet") {
     const DeviceProfile& profile = *find_profile("A351");  // table 5.4
     CHECK(profile.filters_allowed_at(50) == Names{"k512_fc9"});
     CHECK(profile.filters_allowed_at(100) == Names{"k512_fc9", "k512_fc16"});
@@ -99,7 +84,7 @@ TEST_CASE("the filters allowed at each rate are those of the data sheet",
     CHECK(profile.filters_allowed_at(60).empty());
 }
 
-TEST_CASE("filters are found by name and by code", "[wire][device_profile]") {
+TEST_CASE("filters are found by name and by code") {
     const DeviceProfile& profile = *find_profile("A352AD10");
     REQUIRE(profile.filters.size() == 14);
     for (const FilterSpec& filter : profile.filters) {

@@ -38,8 +38,7 @@ std::string refusal(std::string_view from, std::string_view to) {
 
 }  // namespace
 
-TEST_CASE("a profile file with a mistake is refused with key, value and what is allowed",
-          "[wire][profile_reader]") {
+TEST_CASE("a profile file with a mistake is refused with key, value and what is allowed") {
     CHECK(
         refusal("slope_degc = -0.0037918", "slope_degc = 0") ==
         "mine.toml:17: temperature.slope_degc = 0: has no inverse; allowed: a number from -1 to 1, "
@@ -83,8 +82,7 @@ TEST_CASE("a profile file with a mistake is refused with key, value and what is 
               .starts_with("mine.toml:29: output_rate.choices"));
 }
 
-TEST_CASE("a profile file whose filters do not fit its rates is refused",
-          "[wire][profile_reader]") {
+TEST_CASE("a profile file whose filters do not fit its rates is refused") {
     CHECK(refusal("code = 2, taps = 64, rates_hz = [1000]",
                   "code = 2, taps = 64, rates_hz = [900]") ==
           "mine.toml:49: filter.choices.rates_hz = [ 900 ]: not an output rate of the profile; "
@@ -104,7 +102,7 @@ TEST_CASE("a profile file whose filters do not fit its rates is refused",
         "not a user's for each of output_rate.choices");
 }
 
-TEST_CASE("a product identifier that cannot be the device's is refused", "[wire][profile_reader]") {
+TEST_CASE("a product identifier that cannot be the device's is refused") {
     CHECK(refusal("prefix = \"A352AD10\"", "prefix = \"A352 AD1\"") ==
           "mine.toml:2: prefix = 'A352 AD1': not a name; allowed: 1 to 8 letters, digits");
     CHECK(refusal("product_id = \"A352AD10\"", "product_id = \"A370AD10\"") ==
@@ -114,8 +112,7 @@ TEST_CASE("a product identifier that cannot be the device's is refused", "[wire]
               .starts_with("mine.toml:3: product_id = 'A352': not a name; allowed: 8 to 8"));
 }
 
-TEST_CASE("a profile from a file is found by a name with a digest, and in a journal's header",
-          "[wire][profile_reader]") {
+TEST_CASE("a profile from a file is found by a name with a digest, and in a journal's header") {
     const test::TemporaryDirectory directory;
     const std::string text = changed("slope_degc = -0.0037918", "slope_degc = -5.78583e-8");
     const DeviceProfile& read = load_profile(directory.write("mine.toml", text));
