@@ -6,7 +6,7 @@
 
 using namespace a351::text;
 
-TEST_CASE("an error line names characters that look like others", "[text]") {
+TEST_CASE("an error line names characters that look like others") {
     CHECK(echoed("No.5\xC2\xA0") == "No.5<U+00A0 no-break blank>");
     CHECK(echoed("\xE2\x80\x8B\xE2\x80\x8B") == "<U+200B invisible><U+200B invisible>");
     CHECK(echoed("\xE2\x88\x92"
@@ -22,7 +22,7 @@ TEST_CASE("an error line names characters that look like others", "[text]") {
     CHECK_FALSE(has_hidden_character("\xE6\xB8\xAC\xE7\x82\xB9 1, \xC3\xA9 e\xCC\x81"));
 }
 
-TEST_CASE("what an error line echoes is visible and short", "[text]") {
+TEST_CASE("what an error line echoes is visible and short") {
     CHECK(echoed("No.0 \xC3\xA9") == "No.0 \xC3\xA9");
     CHECK(echoed("a\x1B[31m\xFF\xC2\x85") == "a\\x1B[31m\\xFF\\xC2\\x85");
     CHECK(echoed(std::string(100, 'a')) == std::string(100, 'a'));

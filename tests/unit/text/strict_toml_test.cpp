@@ -9,8 +9,7 @@
 using namespace a351;
 using namespace a351::text;
 
-TEST_CASE("every key that is read is allowed, and missing keys get their defaults",
-          "[text][strict_toml]") {
+TEST_CASE("every key that is read is allowed, and missing keys get their defaults") {
     auto root = parse_toml(
         "name = \"x\"\nflag = true\ncount = 3\nlist = [1, 2.5]\nnames = [\"a\"]\npath = \"d/f\"\n"
         "[sub]\nrate = 50\n[[item]]\nn = 1\n[[item]]\nn = 2\n",
@@ -33,8 +32,7 @@ TEST_CASE("every key that is read is allowed, and missing keys get their default
     CHECK(root.table("absent").number("x", 0, 1) == std::nullopt);
 }
 
-TEST_CASE("an error in a TOML file is one line, whatever the file contains",
-          "[text][strict_toml]") {
+TEST_CASE("an error in a TOML file is one line, whatever the file contains") {
     CHECK_THROWS_WITH(parse_toml("a = t\n", "c.toml"),
                       "c.toml:1: not TOML: Error while parsing boolean: expected 'true', saw "
                       "'t '; the line begins a ; allowed: key = value, with texts in quotes");
@@ -43,14 +41,13 @@ TEST_CASE("an error in a TOML file is one line, whatever the file contains",
                       "c.toml:1: two\\x0Alines = \"red\\u001B[31m\": unknown key; allowed: ");
 }
 
-TEST_CASE("an error in a TOML file names file, line, key, value and what is allowed",
-          "[text][strict_toml]") {
-    auto root = parse_toml("a = 1\n[s]\nb = \"x\"\nc = 70\n", "c.toml");
+TEST_CASE("an error in a TOML file names file, line, key, value and what is allowed") {
+    auto root = parse_toml("a = 1\n[s]\nb = \"x\"\nc = 70.1\n", "c.toml");
     auto sub = root.table("s");
     CHECK_THROWS_WITH(sub.integer_or("b", 0, 0, 9),
                       "c.toml:3: s.b = 'x': wrong type; allowed: a whole number from 0 to 9");
     CHECK_THROWS_WITH(sub.number_or("c", 0, 0, 60),
-                      "c.toml:4: s.c = 70: out of range; allowed: a number from 0 to 60");
+                      "c.toml:4: s.c = 70.1: out of range; allowed: a number from 0 to 60");
     CHECK_THROWS_WITH(sub.choice_or("b", "y", {"y", "z"}),
                       "c.toml:3: s.b = 'x': not a known value; allowed: y, z");
     CHECK_THROWS_WITH(root.require_all_read(), "c.toml:1: a = 1: unknown key; allowed: s");
@@ -58,7 +55,7 @@ TEST_CASE("an error in a TOML file names file, line, key, value and what is allo
     CHECK_THROWS_AS(read_toml("/nowhere/c.toml"), InputError);
 }
 
-TEST_CASE("a misspelt key is named with the right one", "[text][strict_toml]") {
+TEST_CASE("a misspelt key is named with the right one") {
     auto station = parse_toml("[station]\nlattitude = 36.1\nlongitude = 140\n", "c.toml");
     auto table = station.table("station");
     CHECK_THROWS_WITH(table.refuse("latitude", "missing", "a number"),
@@ -72,13 +69,7 @@ TEST_CASE("a misspelt key is named with the right one", "[text][strict_toml]") {
     CHECK_THROWS_WITH(other.require_all_read(), "c.toml:1: root = 1: unknown key; allowed: port");
 }
 
-TEST_CASE("a number in an error is written as in the file", "[text][strict_toml]") {
-    auto root = parse_toml("latitude = 96.1\n", "c.toml");
-    CHECK_THROWS_WITH(root.number("latitude", -90, 90),
-                      "c.toml:1: latitude = 96.1: out of range; allowed: a number from -90 to 90");
-}
-
-TEST_CASE("a text written as a TOML string is read back", "[text][toml]") {
+TEST_CASE("a text written as a TOML string is read back") {
     for (const std::string text :
          {"No.5", "a \"b\" \\ c", "tab\tline\nbell\x07 del\x7f", "\xc3\xa9 \xe5\xb1\xb1"}) {
         CAPTURE(text);
@@ -87,7 +78,7 @@ TEST_CASE("a text written as a TOML string is read back", "[text][toml]") {
     }
 }
 
-TEST_CASE("a document is shown without a secret, however it is written", "[text][toml]") {
+TEST_CASE("a document is shown without a secret, however it is written") {
     const test::TemporaryDirectory folder;
     for (const char* page : {"[page]\ntoken = \"SECRET\" # was SECRET\nlisten = \"a:1\"\n",
                              "page.listen = \"a:1\"\npage.token = \"\"\"\nSECRET\"\"\"\n",

@@ -10,8 +10,7 @@
 using namespace a351;
 using namespace a351::text;
 
-TEST_CASE("the blocks of a file make up its content, and none is longer than a fixed size",
-          "[text_file]") {
+TEST_CASE("the blocks of a file make up its content, and none is longer than a fixed size") {
     const test::TemporaryDirectory folder;
     for (const std::size_t size : {0U, 1U, 65536U, 65537U, 1'000'000U}) {
         std::string content(size, '\0');
@@ -29,7 +28,7 @@ TEST_CASE("the blocks of a file make up its content, and none is longer than a f
     }
 }
 
-TEST_CASE("a FIFO is refused without waiting for it", "[text_file]") {
+TEST_CASE("a FIFO is refused without waiting for it") {
     const test::TemporaryDirectory folder;
     const auto fifo = folder.path() / "fifo";
     REQUIRE(::mkfifo(fifo.c_str(), S_IRUSR | S_IWUSR) == 0);
