@@ -91,8 +91,7 @@ std::map<std::string, std::vector<std::byte>> files_below(const std::filesystem:
 
 TEST_CASE(
     "a day recorded with a wrong profile and re-timed with the right one is the day recorded "
-    "right, byte for byte",
-    "[record][retime]") {
+    "right, byte for byte") {
     const test::TemporaryDirectory profiles;
     const DeviceProfile& wrong = *wire::find_profile("A351");
     // Scales, temperature, delay and the name of the filter differ.
@@ -128,8 +127,7 @@ TEST_CASE(
 
 TEST_CASE(
     "epochs of a re-timed record begin with their first samples, also if the clock was wrong at an "
-    "exchange of the sensor, or not set",
-    "[record][retime]") {
+    "exchange of the sensor, or not set") {
     struct Case {
         Nanoseconds off{0};  ///< Error of the clock in the first session.
         bool is_set_later = true;
@@ -184,8 +182,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("a profile without the filter of a journal is refused, and nothing is written",
-          "[record][retime]") {
+TEST_CASE("a profile without the filter of a journal is refused, and nothing is written") {
     const test::TemporaryDirectory profiles;
     const archive::DataRoot root;
     record(root, *wire::find_profile("A351"));
