@@ -72,7 +72,7 @@ struct DecimationFilter {
 /// Cost: O(n), about 4 multiplications per input sample; allocates O(n / M).  Deterministic: every
 /// variant of the inner loop gives the same bits (decimator_test.cpp).
 ///
-/// Accuracy: a constant returns unchanged to 1e-14 relative; a ramp and a tone keep their phase
+/// Accuracy: a constant returns unchanged to 1e-14 relative, and a ramp is not delayed
 /// (decimation_test.cpp).
 ///
 /// @param input   x (n), any unit, magnitude at most 1e307, so that the sum of a pair does not

@@ -20,8 +20,7 @@ std::vector<double> noise(unsigned seed, double kept) {
 
 }  // namespace
 
-TEST_CASE("correlations reach to the lag that is asked for, and peaks are near zero",
-          "[signal][correlation]") {
+TEST_CASE("correlations reach to the lag that is asked for, and peaks are near zero") {
     std::vector<double> first, later;
     for (int i = 0; i < 1000; ++i) {
         first.push_back(std::sin(0.1 * i));
@@ -34,8 +33,8 @@ TEST_CASE("correlations reach to the lag that is asked for, and peaks are near z
 }
 
 TEST_CASE(
-    "unrelated series exceed the limits of chance at 5 % of the lags, also if each follows itself",
-    "[signal][correlation]") {
+    "unrelated series exceed the limits of chance at 5 % of the lags, also if each follows "
+    "itself") {
     for (const double kept : {0.0, 0.9}) {
         int outside = 0, all = 0;
         double limit = 0.0;

@@ -1,7 +1,6 @@
 #include "protocol/signal/decimator.hpp"
 
 #include <cmath>
-#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <random>

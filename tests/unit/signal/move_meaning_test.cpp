@@ -1,6 +1,5 @@
 #include "protocol/signal/move_meaning.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include "tests/support/catch.hpp"
 
@@ -42,7 +41,7 @@ void lift(MadeUpBox& box, double rest_s, double levelling_s = 40.0) {
 
 }  // namespace
 
-TEST_CASE("a stay ends where the box is driven off, lifted or kicked", "[signal][moved_box]") {
+TEST_CASE("a stay ends where the box is driven off, lifted or kicked") {
     constexpr int kEach = 67;
     int ended[3]{};
     for (unsigned seed = 1; seed <= kEach; ++seed) {
@@ -58,8 +57,7 @@ TEST_CASE("a stay ends where the box is driven off, lifted or kicked", "[signal]
     for (const int one : ended) CHECK(one >= 0.95 * kEach);
 }
 
-TEST_CASE("a move up to ten minutes before Next set-up is the change of set-ups",
-          "[signal][moved_box]") {
+TEST_CASE("a move up to ten minutes before Next set-up is the change of set-ups") {
     for (const double before_s : {24.0, 60.0, 120.0, 300.0, 594.0, 606.0}) {
         CAPTURE(before_s);
         MadeUpBox box(1, 360.0);
@@ -82,7 +80,7 @@ TEST_CASE("a move up to ten minutes before Next set-up is the change of set-ups"
     CHECK(judged(kicked, SetUpEnd::next_set_up).at_end == MoveMeaning::change_of_set_ups);
 }
 
-TEST_CASE("a move with a drive is no change of set-ups", "[signal][moved_box]") {
+TEST_CASE("a move with a drive is no change of set-ups") {
     for (const double drive_s : {116.0, 124.0}) {
         CAPTURE(drive_s);
         MadeUpBox before(1, 360.0), after(1, 30.0);
@@ -102,8 +100,7 @@ TEST_CASE("a move with a drive is no change of set-ups", "[signal][moved_box]") 
     CHECK(std::abs(seconds_of(levelled, of.part.end) - 360.0) < 15.0);
 }
 
-TEST_CASE("a move up to a minute after Next set-up is the change of set-ups",
-          "[signal][moved_box]") {
+TEST_CASE("a move up to a minute after Next set-up is the change of set-ups") {
     for (const double after_s : {20.0, 59.0, 61.0}) {
         CAPTURE(after_s);
         MadeUpBox box(1);
@@ -121,8 +118,7 @@ TEST_CASE("a move up to a minute after Next set-up is the change of set-ups",
     }
 }
 
-TEST_CASE("an earlier move in a set-up that Next set-up ends is not part of the change",
-          "[signal][moved_box]") {
+TEST_CASE("an earlier move in a set-up that Next set-up ends is not part of the change") {
     MadeUpBox lifted(1, 300.0), kicked(1, 300.0);
     lift(lifted, 240.0);
     lift(lifted, 60.0);
@@ -137,8 +133,7 @@ TEST_CASE("an earlier move in a set-up that Next set-up ends is not part of the 
     CHECK(judged(kicked, SetUpEnd::next_set_up).at_end == MoveMeaning::late_stop);
 }
 
-TEST_CASE("a lift and a minute at rest before the stop are a forgotten set-up, no drive is one",
-          "[signal][moved_box]") {
+TEST_CASE("a lift and a minute at rest before the stop are a forgotten set-up, no drive is one") {
     constexpr int kEach = 50;
     int lifted = 0, carried = 0, briefly = 0;
     const auto is_forgotten = [](const MadeUpBox& box, SetUpEnd ended_by = SetUpEnd::stop) {
@@ -181,8 +176,7 @@ TEST_CASE("a lift and a minute at rest before the stop are a forgotten set-up, n
 }
 
 TEST_CASE(
-    "while a set-up runs a lift may be the change until the box was at rest for three minutes",
-    "[signal][moved_box]") {
+    "while a set-up runs a lift may be the change until the box was at rest for three minutes") {
     const auto meaning = [](const MadeUpBox& box) { return judged(box, SetUpEnd::running).at_end; };
     MadeUpBox box(1, 360.0);
     lift(box, 170.0);
@@ -202,7 +196,7 @@ TEST_CASE(
     CHECK(meaning(carried) == MoveMeaning::late_stop);
 }
 
-TEST_CASE("what the operator says was no move does not cut the stay", "[signal][moved_box]") {
+TEST_CASE("what the operator says was no move does not cut the stay") {
     MadeUpBox early(1, 60.0);
     lift(early, 300.0, 80.0);
     CHECK(judged(early).part.first > 0);
@@ -232,8 +226,7 @@ TEST_CASE("what the operator says was no move does not cut the stay", "[signal][
     CHECK(judge_moves({}, {.start = answer, .end = answer}).part == StillPart{});
 }
 
-TEST_CASE("a stay that was started or stopped in the car has no drive, one in the car is none",
-          "[signal][moved_box]") {
+TEST_CASE("a stay that was started or stopped in the car has no drive, one in the car is none") {
     MadeUpBox early(1, 60.0);
     lift(early, 500.0);
     const auto begun = judged(early);

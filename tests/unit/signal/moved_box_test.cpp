@@ -8,7 +8,7 @@
 using namespace a351;
 using namespace a351::signal;
 
-TEST_CASE("drives, lifts and kicks are found as moves", "[signal][moved_box]") {
+TEST_CASE("drives, lifts and kicks are found as moves") {
     constexpr int kEach = 67;
     int found[3]{};
     for (unsigned seed = 1; seed <= kEach; ++seed)
@@ -19,7 +19,7 @@ TEST_CASE("drives, lifts and kicks are found as moves", "[signal][moved_box]") {
     for (const int one : found) CHECK(one >= 0.95 * kEach);
 }
 
-TEST_CASE("a lorry, knocks and hands that do not move the box are no move", "[signal][moved_box]") {
+TEST_CASE("a lorry, knocks and hands that do not move the box are no move") {
     int told = 0;
     for (unsigned seed = 1; seed <= 200; ++seed) {
         MadeUpBox box(seed);
@@ -36,8 +36,7 @@ TEST_CASE("a lorry, knocks and hands that do not move the box are no move", "[si
     CHECK(told == 0);
 }
 
-TEST_CASE("missing samples and records without a pause for comparison have no moves",
-          "[signal][moved_box]") {
+TEST_CASE("missing samples and records without a pause for comparison have no moves") {
     MadeUpBox box(1);
     box.rest(38.0);
     CHECK(find_box_moves(box.samples()).empty());
