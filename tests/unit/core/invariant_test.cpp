@@ -11,7 +11,7 @@
 
 using namespace a351;
 
-TEST_CASE("a law that holds does nothing, a broken one says it in one line and aborts", "[core]") {
+TEST_CASE("a law that holds does nothing, a broken one says it in one line and aborts") {
     require_invariant(true, "one is one");
     int pipe[2];
     REQUIRE(::pipe(pipe) == 0);

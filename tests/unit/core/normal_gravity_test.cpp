@@ -59,16 +59,17 @@ double largest_error_mgal(double height_m) {
 
 }  // namespace
 
-TEST_CASE("normal gravity has the published values of GRS80", "[core]") {
+TEST_CASE("normal gravity has the published values of GRS80") {
     // Moritz 2000: gamma_e, gamma_45 and gamma_p.
     CHECK(gravity_mgal(0.0) == Approx(978032.67715).epsilon(0.0).margin(0.00005));
     CHECK(gravity_mgal(45.0) == Approx(980619.9203).epsilon(0.0).margin(0.0001));  // last digit
     CHECK(gravity_mgal(90.0) == Approx(983218.63685).epsilon(0.0).margin(0.00005));
     CHECK(gravity_mgal(-45.0) == gravity_mgal(45.0));
     CHECK(gravity_mgal(36.0, 0.0) == gravity_mgal(36.0));
+    CHECK(gravity_mgal(45.0) - gravity_mgal(45.0, 1.0) == Approx(0.3086).margin(0.00005));
 }
 
-TEST_CASE("normal gravity agrees with the gradient of the exact potential", "[core]") {
+TEST_CASE("normal gravity agrees with the gradient of the exact potential") {
     CHECK(largest_error_mgal(0.0) < 0.00001);
     CHECK(largest_error_mgal(-500.0) < 0.006);
     CHECK(largest_error_mgal(1000.0) < 0.011);
@@ -76,11 +77,7 @@ TEST_CASE("normal gravity agrees with the gradient of the exact potential", "[co
     CHECK(largest_error_mgal(9000.0) < 0.07);
 }
 
-TEST_CASE("gravity decreases by 0.3086 mGal per metre", "[core]") {
-    CHECK(gravity_mgal(45.0, 0.0) - gravity_mgal(45.0, 1.0) == Approx(0.3086).margin(0.00005));
-}
-
-TEST_CASE("a latitude or height that is not a number gives no gravity", "[core]") {
+TEST_CASE("a latitude or height that is not a number gives no gravity") {
     constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
     CHECK(std::isnan(gravity_mgal(kNaN)));
     CHECK(std::isnan(gravity_mgal(45.0, kNaN)));

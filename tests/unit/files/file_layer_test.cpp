@@ -20,7 +20,7 @@ std::string text_in(const std::filesystem::path& file) {
 
 }  // namespace
 
-TEST_CASE("appending continues at the end of the file", "[record][file_layer]") {
+TEST_CASE("appending continues at the end of the file, and truncating keeps its beginning") {
     const test::TemporaryDirectory directory;
     const auto path = directory.path() / "log";
     for (const char* text : {"one ", "two ", "three"}) {
@@ -30,17 +30,11 @@ TEST_CASE("appending continues at the end of the file", "[record][file_layer]") 
         CHECK(file->size() == std::filesystem::file_size(path));
     }
     CHECK(text_in(path) == "one two three");
+    posix_files().truncate(path, 4);
+    CHECK(text_in(path) == "one ");
 }
 
-TEST_CASE("directories are made together with all missing parents", "[record][file_layer]") {
-    const test::TemporaryDirectory directory;
-    const auto path = directory.path() / "a" / "b" / "c";
-    posix_files().create_directories(path);
-    CHECK(std::filesystem::is_directory(path));
-    CHECK_NOTHROW(posix_files().create_directories(path / ""));
-}
-
-TEST_CASE("the work of a disk is counted in whole blocks at each sync", "[record][file_layer]") {
+TEST_CASE("the work of a disk is counted in whole blocks at each sync") {
     const test::TemporaryDirectory directory;
     const auto files = files_below(directory.path());
     const auto has_done = [&](std::uint64_t bytes, std::uint64_t syncs) {
@@ -69,7 +63,7 @@ TEST_CASE("the work of a disk is counted in whole blocks at each sync", "[record
     CHECK(has_done(24576, 5));
 }
 
-TEST_CASE("a failure names operation and path", "[record][file_layer]") {
+TEST_CASE("a failure names operation and path") {
     const test::TemporaryDirectory directory;
     const auto absent = directory.path() / "absent" / "file";
     const auto names = ContainsSubstring("absent/file");
@@ -84,7 +78,7 @@ TEST_CASE("a failure names operation and path", "[record][file_layer]") {
 
 constexpr const char* kLinkRefused = " is a link; links in a data root are not followed";
 
-TEST_CASE("a link in place of a file is not followed", "[record][file_layer]") {
+TEST_CASE("a link in place of a file is not followed, and a new file takes no existing name") {
     const test::TemporaryDirectory directory;
     const auto victim = directory.path() / "victim", link = directory.path() / "log";
     for (const bool exists : {true, false}) {
@@ -96,6 +90,7 @@ TEST_CASE("a link in place of a file is not followed", "[record][file_layer]") {
         CHECK_THROWS_WITH(files.open_append(link), std::string(link) + kLinkRefused);
         CHECK_THROWS_AS(files.truncate(link, 0), std::system_error);
         CHECK_THROWS_AS(files.allocate(link, 4096), std::system_error);
+        CHECK_THROWS_AS(files.create(link), std::system_error);
         // A link in place of the temporary file is removed, and the file itself is replaced.
         std::filesystem::create_symlink(victim, directory.path() / "table.tmp");
         replace_file(files, directory.path() / "table", bytes_of("new"));
@@ -104,9 +99,12 @@ TEST_CASE("a link in place of a file is not followed", "[record][file_layer]") {
         CHECK(std::filesystem::exists(victim) == exists);
         if (exists) CHECK(text_in(victim) == "secret");
     }
+    posix_files().create(directory.path() / "new")->append(bytes_of("first"));
+    CHECK_THROWS_AS(posix_files().create(directory.path() / "new"), std::system_error);
+    CHECK(text_in(directory.path() / "new") == "first");
 }
 
-TEST_CASE("a link in place of a folder below the root is not followed", "[record][file_layer]") {
+TEST_CASE("a link in place of a folder below the root is not followed") {
     const test::TemporaryDirectory directory;
     const auto victim = directory.path() / "victim", root = directory.path() / "data";
     std::filesystem::create_directory(victim);
@@ -117,6 +115,7 @@ TEST_CASE("a link in place of a folder below the root is not followed", "[record
     files->create_directories(root / "archive" / "2026");
     files->sync_directory(root);
     CHECK(std::filesystem::is_directory(directory.path() / "disk" / "archive" / "2026"));
+    CHECK_NOTHROW(files->create_directories(root / "archive" / "2026" / ""));
     for (const auto& folder : {root / "events", root / "archive" / "2026" / "XX"}) {
         std::filesystem::create_directory_symlink(victim, folder);
         CHECK_THROWS_WITH(files->open_append(folder / "log"), std::string(folder) + kLinkRefused);
@@ -140,18 +139,7 @@ TEST_CASE("a link in place of a folder below the root is not followed", "[record
     CHECK(posix_files().open_append(root / "events" / "log")->size() == 6);
 }
 
-TEST_CASE("a file that must be new is not opened if its name exists", "[record][file_layer]") {
-    const test::TemporaryDirectory directory;
-    auto& files = posix_files();
-    files.create(directory.path() / "new")->append(bytes_of("first"));
-    CHECK_THROWS_AS(files.create(directory.path() / "new"), std::system_error);
-    std::filesystem::create_symlink("absent", directory.path() / "link");
-    CHECK_THROWS_AS(files.create(directory.path() / "link"), std::system_error);
-    CHECK_FALSE(std::filesystem::exists(directory.path() / "absent"));
-    CHECK(text_in(directory.path() / "new") == "first");
-}
-
-TEST_CASE("appending to a full disk is an error", "[record][file_layer]") {
+TEST_CASE("appending to a full disk is an error") {
     if (!std::filesystem::exists("/dev/full")) {
         WARN("skipped: this system has no /dev/full");
         return;
@@ -160,16 +148,7 @@ TEST_CASE("appending to a full disk is an error", "[record][file_layer]") {
     CHECK_THROWS_WITH(file->append(bytes_of("x")), ContainsSubstring("append to /dev/full"));
 }
 
-TEST_CASE("truncate keeps the beginning of the file", "[record][file_layer]") {
-    const test::TemporaryDirectory directory;
-    const auto path = directory.path() / "file";
-    test::write_bytes(path, bytes_of("0123456789"));
-    posix_files().truncate(path, 4);
-    CHECK(text_in(path) == "0123");
-}
-
-TEST_CASE("a replaced file holds the old or the new content, whichever operation fails",
-          "[record][file_layer]") {
+TEST_CASE("a replaced file holds the old or the new content, whichever operation fails") {
     const test::TemporaryDirectory directory;
     const auto path = directory.path() / "state.json";
     bool is_done = false;

@@ -31,8 +31,7 @@ Eigen::MatrixXd design() {
 
 }  // namespace
 
-TEST_CASE("a Cholesky decomposition reproduces the matrix, its solutions and its determinant",
-          "[linear_algebra]") {
+TEST_CASE("a Cholesky decomposition reproduces the matrix, its solutions and its determinant") {
     const Cholesky factor(symmetric());
     REQUIRE(factor.is_positive_definite());
     CHECK((factor.lower() * factor.lower().transpose() - symmetric()).norm() < 1e-14);
@@ -44,8 +43,7 @@ TEST_CASE("a Cholesky decomposition reproduces the matrix, its solutions and its
     CHECK(factor.log_determinant() == Approx(std::log(44.8)).epsilon(1e-14));
 }
 
-TEST_CASE("a matrix that is not positive definite, or contains a NaN, is refused",
-          "[linear_algebra]") {
+TEST_CASE("a matrix that is not positive definite, or contains a NaN, is refused") {
     for (const auto& [row, column, value] :
          {std::tuple{1, 1, -5.0}, std::tuple{2, 2, kNan}, std::tuple{2, 0, kNan}}) {
         Eigen::MatrixXd matrix = symmetric();
@@ -58,8 +56,7 @@ TEST_CASE("a matrix that is not positive definite, or contains a NaN, is refused
 }
 
 TEST_CASE(
-    "a pivoted QR decomposition solves least squares and gives the square root of the cofactor",
-    "[linear_algebra]") {
+    "a pivoted QR decomposition solves least squares and gives the square root of the cofactor") {
     const PivotedQr qr(design());
     CHECK(qr.rank() == 2);
     CHECK(qr.pivots()(0) >= qr.pivots()(1));
@@ -74,7 +71,7 @@ TEST_CASE(
     CHECK(PivotedQr(alike).rank() == 1);
 }
 
-TEST_CASE("eigenvalues are in ascending order and match their eigenvectors", "[linear_algebra]") {
+TEST_CASE("eigenvalues are in ascending order and match their eigenvectors") {
     const SymmetricEigen axes = symmetric_eigen(symmetric());
     for (Eigen::Index k = 0; k < 3; ++k) {
         CHECK((symmetric() * axes.vectors.col(k) - axes.values(k) * axes.vectors.col(k)).norm() <
@@ -83,14 +80,12 @@ TEST_CASE("eigenvalues are in ascending order and match their eigenvectors", "[l
     }
 }
 
-TEST_CASE("a normal matrix includes a unit prior for each unknown on its diagonal",
-          "[linear_algebra]") {
+TEST_CASE("a normal matrix includes a unit prior for each unknown on its diagonal") {
     const Eigen::MatrixXd excess = normal_matrix(design()) - design().transpose() * design();
     CHECK((excess - Eigen::MatrixXd::Identity(2, 2)).norm() < 1e-11);
 }
 
-TEST_CASE("the marginal cost is that of readings with noise and priors in one covariance",
-          "[linear_algebra]") {
+TEST_CASE("the marginal cost is that of readings with noise and priors in one covariance") {
     const Eigen::Vector4d readings(3.0, -1.0, 2.0, 0.5);
     const Eigen::MatrixXd x = 0.01 * design();
     const Eigen::MatrixXd covariance = Eigen::MatrixXd::Identity(4, 4) + x * x.transpose();

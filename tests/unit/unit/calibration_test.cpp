@@ -53,7 +53,7 @@ std::string refusal_of(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("a calibration is bit-identical after writing and reading", "[calibration]") {
+TEST_CASE("a calibration is bit-identical after writing and reading") {
     const Calibration calibration = whole();
     CHECK(parse_calibration(to_toml(calibration), "c.toml") == calibration);
 
@@ -64,7 +64,7 @@ TEST_CASE("a calibration is bit-identical after writing and reading", "[calibrat
     CHECK(parse_calibration(to_toml(least), "c.toml") == least);
 }
 
-TEST_CASE("invalid values in a calibration are refused with file, line and key", "[calibration]") {
+TEST_CASE("invalid values in a calibration are refused with file, line and key") {
     const std::string good = to_toml(whole());
     struct Case {
         std::string old, with, message;
@@ -104,7 +104,7 @@ TEST_CASE("invalid values in a calibration are refused with file, line and key",
                ContainsSubstring("axis_bias, thermal, warm_up, placement, scale or faces"));
 }
 
-TEST_CASE("SHA-256 of a file agrees with the example of the standard", "[calibration]") {
+TEST_CASE("SHA-256 of a file agrees with the example of the standard") {
     // FIPS 180-4 examples, "abc".
     const test::TemporaryDirectory folder;
     CHECK(text::sha256_of_file(folder.write("abc", "abc")) ==
@@ -114,8 +114,7 @@ TEST_CASE("SHA-256 of a file agrees with the example of the standard", "[calibra
           "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
 }
 
-TEST_CASE("independent estimates are combined with weights from their covariances",
-          "[calibration]") {
+TEST_CASE("independent estimates are combined with weights from their covariances") {
     const AxisBias sharp{{10.0, -4.0}, (Eigen::Matrix2d() << 1.0, 0.5, 0.5, 4.0).finished()};
     CHECK(combined(std::vector{sharp}) == sharp);
     const AxisBias again = combined(std::vector{sharp, sharp, sharp, sharp});
@@ -129,7 +128,7 @@ TEST_CASE("independent estimates are combined with weights from their covariance
     CHECK(mean.covariance(0, 0) == Approx(2.0 / 3.0));
 }
 
-TEST_CASE("the share of the scale comes from both slopes, or is not known", "[calibration]") {
+TEST_CASE("the share of the scale comes from both slopes, or is not known") {
     const ScaleShare share = scale_share_of(*whole().faces);
     CHECK(share.mean == Approx(0.3));
     // (0.7^2 + 0.3^2)^0.5 0.1 / 30
