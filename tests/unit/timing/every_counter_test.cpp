@@ -45,8 +45,7 @@ Placement expected(int ahead, std::int64_t steps, int rate_hz, bool contiguous) 
 
 }  // namespace
 
-TEST_CASE("two frames are placed by the law of the counter, whatever its two values",
-          "[timing][sample_index][long]") {
+TEST_CASE("two frames are placed by the law of the counter, whatever its two values") {
     std::int64_t pairs = 0, wrong = 0;
     std::array<std::int64_t, 6> kinds{};
     for (const int rate_hz : {50, 100, 200, 500, 1000}) {

@@ -37,8 +37,7 @@ struct Host {
 
 }  // namespace
 
-TEST_CASE("in hindsight a sleep is bridged, whether or not the host is synchronised after it",
-          "[timing][hindsight]") {
+TEST_CASE("in hindsight a sleep is bridged, whether or not the host is synchronised after it") {
     for (const bool is_synchronised_later : {true, false}) {
         Host host;
         host.run(100);
@@ -57,8 +56,8 @@ TEST_CASE("in hindsight a sleep is bridged, whether or not the host is synchroni
 }
 
 TEST_CASE(
-    "in hindsight times before a sleep are right to 1 s if the host is synchronised only after it",
-    "[timing][hindsight]") {
+    "in hindsight times before a sleep are right to 1 s if the host is synchronised only after "
+    "it") {
     Host host;
     host.is_synchronised = false;
     host.clock_off = -5h;
@@ -72,8 +71,7 @@ TEST_CASE(
     CHECK(host.history.at(RawTime(550s), 0).error >= Nanoseconds(1s));
 }
 
-TEST_CASE("in hindsight a clock that was set and set back counts as never set",
-          "[timing][hindsight]") {
+TEST_CASE("in hindsight a clock that was set and set back counts as never set") {
     Host host;
     host.run(100);
     host.clock_off = 5s;
@@ -86,8 +84,7 @@ TEST_CASE("in hindsight a clock that was set and set back counts as never set",
     CHECK(host.history.at(wrong, 0).stretch == host.history.at(host.raw(), 0).stretch);
 }
 
-TEST_CASE("in hindsight a lasting step of the clock is placed at the reading that shows it",
-          "[timing][hindsight]") {
+TEST_CASE("in hindsight a lasting step of the clock is placed at the reading that shows it") {
     Host host;
     host.run(100);
     const RawTime before = host.raw();
@@ -98,7 +95,7 @@ TEST_CASE("in hindsight a lasting step of the clock is placed at the reading tha
     CHECK(std::chrono::abs(host.error(host.raw(), host.now) - 5s) < Nanoseconds(1ms));
 }
 
-TEST_CASE("in hindsight a gap of 60 years adds no pieces", "[timing][hindsight]") {
+TEST_CASE("in hindsight a gap of 60 years adds no pieces") {
     Host host;
     host.run(100);
     Hindsight hindsight({Hertz(50.0), 0s}, 0);

@@ -46,6 +46,12 @@ struct World {
         if (k % rate_hz == 0) read_clock(due);
         clock.observe(k, raw(due + late));
     }
+    void frames(std::int64_t first, std::int64_t end) {
+        for (std::int64_t k = first; k < end; ++k) frame(k, 0s);
+    }
+    [[nodiscard]] Nanoseconds error(std::int64_t k) const {
+        return std::chrono::abs(clock.time_of(k)->utc - truth(k));
+    }
 };
 
 /// Delays of frames behind an adapter that delivers every 16 ms, with a host that is busy now and
@@ -68,17 +74,8 @@ private:
 
 }  // namespace
 
-TEST_CASE("arrivals without noise give times within 0.1 ms", "[timing][sample_clock]") {
-    World world;
-    for (std::int64_t k = 0; k < 20'000; ++k) world.frame(k, 0s);
-    for (std::int64_t k = 0; k < 20'000; k += 7)
-        REQUIRE(std::chrono::abs(world.clock.time_of(k)->utc - world.truth(k)) <
-                Nanoseconds(100us));
-}
-
-TEST_CASE("the fitted line of times follows the rates of sensor and host",
-          "[timing][sample_clock]") {
-    for (const double device_ppm : {-10.0, 10.0}) {
+TEST_CASE("arrivals without noise give times within 0.1 ms at any rates of sensor and host") {
+    for (const double device_ppm : {-10.0, 0.0, 10.0}) {
         for (const double raw_ppm : {-100.0, 0.0, 100.0}) {
             World world;
             world.device_ppm = device_ppm;
@@ -90,14 +87,14 @@ TEST_CASE("the fitted line of times follows the rates of sensor and host",
                 worst_s = std::max(worst_s, std::abs(error_s));
                 if (k > 3000) worst_late_s = std::max(worst_late_s, std::abs(error_s));
             }
-            CHECK(worst_s < 0.6e-3);  // 110 ppm for some seconds
+            const bool is_exact = device_ppm == 0.0 && raw_ppm == 0.0;
+            CHECK(worst_s < (is_exact ? 0.1e-3 : 0.6e-3));  // 110 ppm for some seconds
             CHECK(worst_late_s < 0.1e-3);
         }
     }
 }
 
-TEST_CASE("late frames do not change the times as long as others arrive in time",
-          "[timing][sample_clock]") {
+TEST_CASE("late frames do not change the times as long as others arrive in time") {
     World punctual, late;
     std::mt19937_64 random(1);
     for (std::int64_t k = 0; k < 10'000; ++k) {
@@ -109,25 +106,20 @@ TEST_CASE("late frames do not change the times as long as others arrive in time"
         REQUIRE(punctual.clock.time_of(k)->utc == late.clock.time_of(k)->utc);
 }
 
-TEST_CASE("an earlier arrival moves the published line by at most 0.2 ms per second of data",
-          "[timing][sample_clock]") {
+TEST_CASE("an earlier arrival moves the published line by at most 0.2 ms per second of data") {
     World world;
     for (std::int64_t k = 0; k < 500; ++k) world.frame(k, 50ms);
-    for (std::int64_t k = 500; k < 60'000; ++k) world.frame(k, 0s);
+    world.frames(500, 60'000);
     for (std::int64_t k = 0; k + 50 < 60'000; ++k) {
         const auto second = world.clock.time_of(k + 50)->utc - world.clock.time_of(k)->utc;
         REQUIRE(std::chrono::abs(second - Nanoseconds(1s)) <= Nanoseconds(310us));  // + 110 ppm
     }
-    const auto error = [&](std::int64_t k) {
-        return std::chrono::abs(world.clock.time_of(k)->utc - world.truth(k));
-    };
-    CHECK(error(499) > Nanoseconds(45ms));
-    CHECK(error(59'999) < Nanoseconds(100us));
-    CHECK(world.clock.time_of(600)->uncertainty >= error(600));
+    CHECK(world.error(499) > Nanoseconds(45ms));
+    CHECK(world.error(59'999) < Nanoseconds(100us));
+    CHECK(world.clock.time_of(600)->uncertainty >= world.error(600));
 }
 
-TEST_CASE("a published time never changes and does not depend on when it is requested",
-          "[timing][sample_clock]") {
+TEST_CASE("a published time never changes and does not depend on when it is requested") {
     World asked, quiet;
     Delays delays(2), same(2);
     std::vector<UtcTime> when_new;
@@ -145,7 +137,7 @@ TEST_CASE("a published time never changes and does not depend on when it is requ
     }
 }
 
-TEST_CASE("index_at is the inverse of time_of", "[timing][sample_clock]") {
+TEST_CASE("index_at is the inverse of time_of") {
     World world;
     Delays delays(3);
     CHECK_FALSE(world.clock.index_at(kTrueNoon));
@@ -159,8 +151,7 @@ TEST_CASE("index_at is the inverse of time_of", "[timing][sample_clock]") {
     CHECK_FALSE(world.clock.index_at(world.clock.time_of(29'999)->utc + 1ns));
 }
 
-TEST_CASE("times older than 24 h of data are forgotten and newer ones kept",
-          "[timing][sample_clock]") {
+TEST_CASE("times older than 24 h of data are forgotten and newer ones kept") {
     World world;
     world.raw_ppm = 30.0;
     const std::int64_t day = 24 * 3600 * 50;
@@ -171,20 +162,17 @@ TEST_CASE("times older than 24 h of data are forgotten and newer ones kept",
 }
 
 // A damaged time in a journal, found by fuzzing: a piece was made for every second of the gap.
-TEST_CASE("a gap of 60 years costs nothing and ends in a break of the times",
-          "[timing][sample_clock]") {
+TEST_CASE("a gap of 60 years costs nothing and ends in a break of the times") {
     World world;
     world.device_ppm = 5.0004;  // no whole number of nanoseconds a second
-    for (std::int64_t k = 0; k < 10'000; ++k) world.frame(k, 0s);
+    world.frames(0, 10'000);
     const std::int64_t after = 60 * 366LL * 24 * 3600 * 50;
-    for (std::int64_t k = after; k < after + 1000; ++k) world.frame(k, 0s);
+    world.frames(after, after + 1000);
     CHECK(world.clock.last_break() == after);
-    for (std::int64_t k = after; k < after + 1000; ++k)
-        REQUIRE(std::chrono::abs(world.clock.time_of(k)->utc - world.truth(k)) < Nanoseconds(1ms));
+    for (std::int64_t k = after; k < after + 1000; ++k) REQUIRE(world.error(k) < Nanoseconds(1ms));
 }
 
-TEST_CASE("the stated uncertainty covers the true error behind a 16 ms adapter for an hour",
-          "[timing][sample_clock]") {
+TEST_CASE("the stated uncertainty covers the true error behind a 16 ms adapter for an hour") {
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
         World world;
         world.device_ppm = seed % 2 == 0 ? 10.0 : -10.0;
@@ -206,15 +194,14 @@ TEST_CASE("the stated uncertainty covers the true error behind a 16 ms adapter f
     }
 }
 
-TEST_CASE("an unsynchronised host has an uncertainty of at least 1 s", "[timing][sample_clock]") {
-    World world;
+TEST_CASE("an unsynchronised host has an uncertainty of at least 1 s") {
+    World world, worse;
     world.is_synchronised = false;
-    for (std::int64_t k = 0; k < 5000; ++k) world.frame(k, 0s);
+    world.frames(0, 5000);
     CHECK(world.clock.uncertainty() >= Nanoseconds(1s));
-    World worse;
     worse.is_synchronised = false;
     worse.max_error_us = 16'000'000;  // where the kernel stops counting
-    for (std::int64_t k = 0; k < 5000; ++k) worse.frame(k, 0s);
+    worse.frames(0, 5000);
     CHECK(worse.clock.uncertainty() >= Nanoseconds(16s));
     CHECK(worse.clock.host_uncertainty() >= Nanoseconds(16s));
     CHECK(worse.clock.uncertainty() - worse.clock.host_uncertainty() <
@@ -222,63 +209,52 @@ TEST_CASE("an unsynchronised host has an uncertainty of at least 1 s", "[timing]
     CHECK_FALSE(worse.clock.measured_rate());  // it could be wrong by 16 %
 }
 
-TEST_CASE("the clock is unlocked for 60 s of data, then locked", "[timing][sample_clock]") {
+TEST_CASE("the clock is unlocked for 60 s of data, then locked, coarse or in holdover") {
     World world;
     CHECK_FALSE(world.clock.time_of(0));
-    for (std::int64_t k = 0; k < 3000; ++k) world.frame(k, 0s);
+    world.frames(0, 3000);
     CHECK(world.clock.state() == timing::State::unlocked);
     world.frame(3000, 0s);
     CHECK(world.clock.state() == timing::State::locked);
-}
-
-TEST_CASE("a timer that hides 5 ms gives the clock state coarse", "[timing][sample_clock]") {
-    World world;
-    for (std::int64_t k = 0; k < 10'000; ++k) world.frame(k, k % 4 * 5ms);
-    CHECK(world.clock.state() == timing::State::coarse);
-    CHECK(world.clock.uncertainty() > Nanoseconds(3ms));
-}
-
-TEST_CASE("a host that loses its synchronisation gives the clock state holdover",
-          "[timing][sample_clock]") {
-    World world;
-    for (std::int64_t k = 0; k < 5000; ++k) world.frame(k, 0s);
+    world.frames(3001, 5000);
     const Nanoseconds before = world.clock.uncertainty();
     world.is_synchronised = false;
-    for (std::int64_t k = 5000; k < 10'000; ++k) world.frame(k, 0s);
+    world.frames(5000, 10'000);
     CHECK(world.clock.state() == timing::State::holdover);
     CHECK_FALSE(world.clock.time_of(9'999)->is_host_synchronised);
     CHECK(world.clock.uncertainty() >= before + 9ms);  // 100 s at 100 ppm
     world.is_synchronised = true;
-    for (std::int64_t k = 10'000; k < 10'200; ++k) world.frame(k, 0s);
+    world.frames(10'000, 10'200);
     CHECK(world.clock.state() == timing::State::locked);
+
+    World hidden;  // by a timer, 5 ms
+    for (std::int64_t k = 0; k < 10'000; ++k) hidden.frame(k, k % 4 * 5ms);
+    CHECK(hidden.clock.state() == timing::State::coarse);
+    CHECK(hidden.clock.uncertainty() > Nanoseconds(3ms));
 }
 
-TEST_CASE("published times break where a step of the host's clock is followed",
-          "[timing][sample_clock]") {
+TEST_CASE("published times break where a step of the host's clock is followed") {
     World world;
-    for (std::int64_t k = 0; k < 5000; ++k) world.frame(k, 0s);
+    world.frames(0, 5000);
     world.host_off = 1h;
     for (std::int64_t k = 5000; k < 7900; ++k) {
         world.frame(k, 0s);
-        REQUIRE(std::chrono::abs(world.clock.time_of(k)->utc - world.truth(k)) < Nanoseconds(1ms));
+        REQUIRE(world.error(k) < Nanoseconds(1ms));
     }
     CHECK(world.clock.state() == timing::State::holdover);
     CHECK_FALSE(world.clock.last_break());
-    for (std::int64_t k = 7900; k < 9000; ++k) world.frame(k, 0s);
+    world.frames(7900, 9000);
     REQUIRE(world.clock.last_break());
     const std::int64_t at = *world.clock.last_break();
     CHECK(at == 8000);  // after 60 s of agreement
-    const auto error = [&](std::int64_t k) {
-        return std::chrono::abs(world.clock.time_of(k)->utc - world.truth(k));
-    };
-    CHECK(error(at - 1) < Nanoseconds(1ms));
-    CHECK(std::chrono::abs(error(at) - Nanoseconds(1h)) < Nanoseconds(1ms));
+    CHECK(world.error(at - 1) < Nanoseconds(1ms));
+    CHECK(std::chrono::abs(world.error(at) - Nanoseconds(1h)) < Nanoseconds(1ms));
     CHECK(world.clock.state() == timing::State::locked);
 }
 
-TEST_CASE("a sleep of the host is added to its raw clock", "[timing][sample_clock]") {
+TEST_CASE("a sleep of the host is added to its raw clock") {
     World world;
-    for (std::int64_t k = 0; k < 10'000; ++k) world.frame(k, 0s);
+    world.frames(0, 10'000);
     // The sensor continued. The host counted 400 ms too much, and a time service corrects it later.
     world.slept = 20min;
     world.slept_too_long = world.host_off = 400ms;
@@ -299,31 +275,25 @@ TEST_CASE("a sleep of the host is added to its raw clock", "[timing][sample_cloc
     CHECK(world.clock.awake(RawTime(0s)).time_since_epoch() == Nanoseconds(20min) + 400ms);
 }
 
-TEST_CASE("frames left unread during a sleep of the host do not affect the times after it",
-          "[timing][sample_clock]") {
+TEST_CASE("frames left unread during a sleep of the host do not affect the times after it") {
     for (const std::int64_t unread : {1, 5, 15}) {
         World world;
-        for (std::int64_t k = 0; k < 10'000; ++k) world.frame(k, 0s);
+        world.frames(0, 10'000);
         world.slept = 40s;
         const std::int64_t awake = 10'000 + unread + 40 * 50;
         world.read_clock(world.truth(awake));
         for (std::int64_t k = 10'000; k < 10'000 + unread; ++k)
             world.clock.observe(k, world.raw(world.truth(awake) + kGroupDelay));
-        for (std::int64_t k = awake; k < awake + 1000; ++k) world.frame(k, 0s);
+        world.frames(awake, awake + 1000);
         CAPTURE(unread);
-        for (std::int64_t k = awake; k < awake + 1000; ++k)
-            REQUIRE(std::chrono::abs(world.clock.time_of(k)->utc - world.truth(k)) <
-                    Nanoseconds(1ms));
-        for (std::int64_t k = 10'000; k < 10'000 + unread; ++k)
-            REQUIRE(std::chrono::abs(world.clock.time_of(k)->utc - world.truth(k)) <
-                    Nanoseconds(1ms));
+        for (std::int64_t k = 10'000; k < awake + 1000; ++k)
+            if (k < 10'000 + unread || k >= awake) REQUIRE(world.error(k) < Nanoseconds(1ms));
     }
 }
 
-TEST_CASE("after a sleep of the host its raw clock may have another rate",
-          "[timing][sample_clock]") {
+TEST_CASE("after a sleep of the host its raw clock may have another rate") {
     World world;
-    for (std::int64_t k = 0; k < 180'000; ++k) world.frame(k, 0s);
+    world.frames(0, 180'000);
     world.slept = 20min;
     const std::int64_t awake = 180'000 + 20 * 60 * 50;
     const UtcTime then = world.truth(awake);
@@ -337,9 +307,9 @@ TEST_CASE("after a sleep of the host its raw clock may have another rate",
     }
 }
 
-TEST_CASE("a restart of the sensor keeps what is known of the host", "[timing][sample_clock]") {
+TEST_CASE("a restart of the sensor keeps what is known of the host") {
     World world;
-    for (std::int64_t k = 0; k < 5000; ++k) world.frame(k, 0s);
+    world.frames(0, 5000);
     world.clock.restart_index();
     CHECK_FALSE(world.clock.time_of(0));
     CHECK(world.clock.state() == timing::State::unlocked);
@@ -348,7 +318,7 @@ TEST_CASE("a restart of the sensor keeps what is known of the host", "[timing][s
     CHECK(world.clock.time_of(0)->uncertainty < Nanoseconds(10ms));
 }
 
-TEST_CASE("the rate of the sensor is measured as well as it says", "[timing][sample_clock]") {
+TEST_CASE("the rate of the sensor is measured as well as it says") {
     for (std::uint64_t seed = 1; seed <= 10; ++seed) {
         for (const double ppm : {-20.0, 12.0}) {
             World world;
@@ -370,8 +340,7 @@ TEST_CASE("the rate of the sensor is measured as well as it says", "[timing][sam
     }
 }
 
-TEST_CASE("a rate beyond the limits of the clock's line is not measured",
-          "[timing][sample_clock]") {
+TEST_CASE("a rate beyond the limits of the clock's line is not measured") {
     for (const double ppm : {-20'000.0, -500.0, -200.0, 200.0, 500.0, 20'000.0}) {
         World world;
         world.device_ppm = ppm;
@@ -387,28 +356,25 @@ TEST_CASE("a rate beyond the limits of the clock's line is not measured",
     }
 }
 
-TEST_CASE("the uncertainty of the rate includes both ends of its span", "[timing][sample_clock]") {
+TEST_CASE("the span of the rate has no jump of the times, and both its ends are uncertain") {
     World world;
-    world.max_error_us = 20'000;
-    for (std::int64_t k = 0; k < 50 * 600; ++k) world.frame(k, 0s);
-    const auto measured = world.clock.measured_rate();
-    REQUIRE(measured);
-    // Each end is at least as uncertain as the host's clock.
-    const double stated_s =
-        1e-6 * measured->uncertainty_ppm * std::chrono::duration<double>(measured->span).count();
-    CHECK(stated_s >= 2 * 0.020);
-    CHECK(stated_s < 2 * 0.025);
-}
-
-TEST_CASE("the rate is not measured across a jump of the times", "[timing][sample_clock]") {
-    World world;
-    for (std::int64_t k = 0; k < 50 * 600; ++k) world.frame(k, 0s);
+    world.frames(0, 50 * 600);
     CHECK(std::abs(world.clock.measured_rate()->rate.value() - 50.0) < 1e-4);
     world.host_off = 1h;
-    for (std::int64_t k = 50 * 600; k < 50 * 900; ++k) world.frame(k, 0s);
+    world.frames(50 * 600, 50 * 900);
     REQUIRE(world.clock.last_break());
     const auto measured = world.clock.measured_rate();
     REQUIRE(measured);
     CHECK(measured->span < 300s);
     CHECK(std::abs(measured->rate.value() - 50.0) < 1e-3);
+
+    World uncertain;
+    uncertain.max_error_us = 20'000;
+    uncertain.frames(0, 50 * 600);
+    const auto rate = uncertain.clock.measured_rate().value();
+    // Each end is at least as uncertain as the host's clock.
+    const double stated_s =
+        1e-6 * rate.uncertainty_ppm * std::chrono::duration<double>(rate.span).count();
+    CHECK(stated_s >= 2 * 0.020);
+    CHECK(stated_s < 2 * 0.025);
 }

@@ -42,7 +42,7 @@ struct DriftingHost {
 
 }  // namespace
 
-TEST_CASE("a slew of 500 ppm is followed to 1 ms", "[timing][utc_mapping]") {
+TEST_CASE("a slew of 500 ppm is followed to 1 ms") {
     DriftingHost host;
     host.run(10);
     for (const double slew_ppm : {500.0, 0.0, -500.0, 0.0}) {
@@ -57,8 +57,7 @@ TEST_CASE("a slew of 500 ppm is followed to 1 ms", "[timing][utc_mapping]") {
     CHECK_FALSE(host.followed);
 }
 
-TEST_CASE("a step of a host that was synchronised is doubted, then followed",
-          "[timing][utc_mapping]") {
+TEST_CASE("a step of a host that was synchronised is doubted, then followed") {
     for (const double step_s : {3600.0, -3600.0, 0.06}) {
         DriftingHost host;
         host.run(100);
@@ -80,7 +79,7 @@ TEST_CASE("a step of a host that was synchronised is doubted, then followed",
     }
 }
 
-TEST_CASE("a clock that is set and set back changes nothing", "[timing][utc_mapping]") {
+TEST_CASE("a clock that is set and set back changes nothing") {
     DriftingHost host;
     host.run(100);
     host.offset_s = 5.0;
@@ -93,8 +92,7 @@ TEST_CASE("a clock that is set and set back changes nothing", "[timing][utc_mapp
 }
 
 TEST_CASE(
-    "a step while the clock is slewed stays doubtful, and the stated error covers the true one",
-    "[timing][utc_mapping]") {
+    "a step while the clock is slewed stays doubtful, and the stated error covers the true one") {
     DriftingHost host;
     host.run(10);
     host.slew_ppm = 500.0;
@@ -113,7 +111,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("a clock that keeps jumping is not followed", "[timing][utc_mapping]") {
+TEST_CASE("a clock that keeps jumping is not followed") {
     DriftingHost host;
     host.run(100);
     for (int i = 0; i < 10; ++i) {
@@ -124,7 +122,7 @@ TEST_CASE("a clock that keeps jumping is not followed", "[timing][utc_mapping]")
     CHECK(std::abs(host.error_ms()) < 1e-3);
 }
 
-TEST_CASE("the first synchronisation is followed at once", "[timing][utc_mapping]") {
+TEST_CASE("the first synchronisation is followed at once") {
     DriftingHost host;
     host.is_synchronised = false;
     host.offset_s = -1.7e9;  // 1970
@@ -139,8 +137,7 @@ TEST_CASE("the first synchronisation is followed at once", "[timing][utc_mapping
     CHECK(host.mapping.error_at(host.raw()) < Nanoseconds(2ms));
 }
 
-TEST_CASE("a step of a clock that is never synchronised is followed after a minute",
-          "[timing][utc_mapping]") {
+TEST_CASE("a step of a clock that is never synchronised is followed after a minute") {
     DriftingHost host;
     host.is_synchronised = false;
     host.run(30);
@@ -151,7 +148,7 @@ TEST_CASE("a step of a clock that is never synchronised is followed after a minu
     CHECK(host.followed);
 }
 
-TEST_CASE("a step within a minute of waking up is doubted", "[timing][utc_mapping]") {
+TEST_CASE("a step within a minute of waking up is doubted") {
     DriftingHost host;
     host.is_synchronised = false;
     host.run(30);
@@ -165,49 +162,34 @@ TEST_CASE("a step within a minute of waking up is doubted", "[timing][utc_mappin
     CHECK(host.followed);
 }
 
-TEST_CASE("an announced leap second is followed at once, with a larger stated error for minutes",
-          "[timing][utc_mapping]") {
+TEST_CASE("an announced leap second is followed at once, with a larger stated error for minutes") {
     for (const auto& [leap, step_s] :
          {std::pair(LeapSecond::inserted, -1.0), std::pair(LeapSecond::removed, 1.0)}) {
-        DriftingHost host;
-        host.leap = leap;
-        host.run(12 * 3600 - 150);
-        CHECK(host.mapping.error_at(host.raw()) < Nanoseconds(2ms));
-        host.run(149);
-        CHECK(host.mapping.error_at(host.raw()) >= Nanoseconds(1s));
-        CHECK_FALSE(host.mapping.is_held());
-        host.offset_s += step_s;  // at midnight
-        host.leap = LeapSecond::none;
-        host.run(1);
-        REQUIRE(host.followed);
-        CHECK(*host.followed == from_seconds(step_s));
-        CHECK(host.mapping.at(host.raw()) == host.clock());
-        CHECK(host.mapping.is_synchronised());
-        host.run(130);
-        CHECK(host.mapping.error_at(host.raw()) < Nanoseconds(2ms));
+        for (const bool is_still_announced : {false, true}) {  // by the reading after it
+            DriftingHost host;
+            host.leap = leap;
+            host.run(12 * 3600 - 150);
+            CHECK(host.mapping.error_at(host.raw()) < Nanoseconds(2ms));
+            host.run(149);
+            CHECK(host.mapping.error_at(host.raw()) >= Nanoseconds(1s));
+            CHECK_FALSE(host.mapping.is_held());
+            host.offset_s += step_s;  // at midnight
+            if (!is_still_announced) host.leap = LeapSecond::none;
+            host.run(1);
+            REQUIRE(host.followed);
+            CHECK(*host.followed == from_seconds(step_s));
+            host.leap = LeapSecond::none;
+            host.run(1);
+            CHECK(host.mapping.at(host.raw()) == host.clock());
+            CHECK(host.mapping.is_synchronised());
+            CHECK(host.mapping.error_at(host.raw()) >= Nanoseconds(1s));
+            host.run(130);
+            CHECK(host.mapping.error_at(host.raw()) < Nanoseconds(2ms));
+        }
     }
 }
 
-TEST_CASE("a leap second is followed even if the reading after it still announces it",
-          "[timing][utc_mapping]") {
-    for (const auto& [leap, step_s] :
-         {std::pair(LeapSecond::inserted, -1.0), std::pair(LeapSecond::removed, 1.0)}) {
-        DriftingHost host;
-        host.leap = leap;
-        host.run(12 * 3600 - 1);
-        host.offset_s += step_s;  // This reading still announces it.
-        host.run(1);
-        REQUIRE(host.followed);
-        host.leap = LeapSecond::none;
-        host.run(1);
-        CHECK(host.mapping.at(host.raw()) == host.clock());
-        CHECK(host.mapping.is_synchronised());
-        CHECK(host.mapping.error_at(host.raw()) >= Nanoseconds(1s));
-    }
-}
-
-TEST_CASE("a step of one second at another time than the announced one is doubted",
-          "[timing][utc_mapping]") {
+TEST_CASE("a step of one second at another time than the announced one is doubted") {
     DriftingHost host;
     host.leap = LeapSecond::inserted;
     host.run(100);
