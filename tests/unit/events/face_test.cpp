@@ -8,8 +8,7 @@ using namespace a351;
 using namespace a351::events;
 
 TEST_CASE(
-    "the face is the side on which the vertical axis points up, and a box on its side has none",
-    "[events][faces]") {
+    "the face is the side on which the vertical axis points up, and a box on its side has none") {
     CHECK(vertical_axis({0.01, -0.02, -0.998}) == 2);
     CHECK(vertical_axis({-0.999, 0.0, 0.03}) == 0);
     CHECK(face_of(StandardGravity(0.95)) == 1);

@@ -28,8 +28,7 @@ using Lines = std::vector<std::string>;
 
 }  // namespace
 
-TEST_CASE("a stop that names another site ends the stay, and its notes say so",
-          "[record][occupations]") {
+TEST_CASE("a stop that names another site ends the stay, and its notes say so") {
     Event other = stop("09:10");
     other.details["site"] = "B";
     const auto stays = occupations_of({start("09:00", "C"), other});
@@ -40,12 +39,7 @@ TEST_CASE("a stop that names another site ends the stay, and its notes say so",
     CHECK(occupations_of({start("09:00", "C"), other})[0].note.empty());
 }
 
-TEST_CASE("start and stop make an occupation", "[record][occupations]") {
-    CHECK(shown({start("09:00", "A"), stop("09:10")}) == Lines{"A#1 09:00-09:10"});
-}
-
-TEST_CASE("what is said of a face stays with its set-up when the stay is re-timed",
-          "[record][occupations][faces]") {
+TEST_CASE("what is said of a face stays with its set-up when the stay is re-timed") {
     std::vector<Event> events{
         event_of("start", "09:00", {{"site", "A"}, {"key", "k"}, {"face", "+"}}),
         event_of("setup", "09:10", {{"planned_face", "-"}}),
@@ -75,75 +69,75 @@ TEST_CASE("what is said of a face stays with its set-up when the stay is re-time
     CHECK(expected() == std::vector{0, 1, 1});
 }
 
-TEST_CASE("occupations are numbered per site in time order", "[record][occupations]") {
-    CHECK(shown({start("10:00", "A"), stop("10:10"), start("11:00", "B"), stop("11:10"),
-                 start("12:00", "A"), stop("12:10"),
-                 // Logged last, with a time before all others.
-                 start("09:00", "A"), stop("09:10")}) ==
-          Lines{"A#1 09:00-09:10", "A#2 10:00-10:10", "B#1 11:00-11:10", "A#3 12:00-12:10"});
-}
-
-TEST_CASE("a site is counted as one in all forms of its characters", "[record][occupations]") {
-    Event rename{"rename", at("2026-03-01T09:50:00Z"), {}, {}, {{"site", "Cafe\u0301"}}};
-    CHECK(shown({start("09:00", "Caf\u00E9"), stop("09:10"), start("09:20", "Cafe\u0301"),
-                 stop("09:30"), start("09:40", "B"), rename, stop("10:00")}) ==
-          Lines{"Caf\u00E9#1 09:00-09:10", "Caf\u00E9#2 09:20-09:30", "Caf\u00E9#3 09:40-10:00"});
-}
-
-TEST_CASE("a start while another occupation is running ends that occupation",
-          "[record][occupations]") {
-    CHECK(shown({start("09:00", "A"), start("09:30", "B"), stop("09:40")}) ==
-          Lines{"A#1 09:00-09:30", "B#1 09:30-09:40"});
+TEST_CASE("occupations have the times of the log, and are numbered per site in time order") {
+    const auto discard = event_of("discard", "23:00");
+    const auto rename = [](const char* site) {
+        return event_of("rename", "23:00", {{"site", site}});
+    };
+    struct Case {
+        const char* law;
+        std::vector<Event> events;
+        Lines expected;
+    };
+    const std::vector two{start("09:00", "A"), stop("09:10"), start("10:00", "A"), stop("10:10")};
+    const auto two_and = [&](std::vector<Event> more) {
+        more.insert(more.begin(), two.begin(), two.end());
+        return more;
+    };
+    for (const auto& [law, events, expected] : {
+             Case{"numbers follow the times, also of those that were logged late",
+                  {start("10:00", "A"), stop("10:10"), start("11:00", "B"), stop("11:10"),
+                   start("12:00", "A"), stop("12:10"), start("09:00", "A"), stop("09:10")},
+                  {"A#1 09:00-09:10", "A#2 10:00-10:10", "B#1 11:00-11:10", "A#3 12:00-12:10"}},
+             Case{
+                 "a site is one in all forms of its characters",
+                 {start("09:00", "Caf\u00E9"), stop("09:10"), start("09:20", "Cafe\u0301"),
+                  stop("09:30"), start("09:40", "B"), rename("Cafe\u0301"), stop("10:00")},
+                 {"Caf\u00E9#1 09:00-09:10", "Caf\u00E9#2 09:20-09:30", "Caf\u00E9#3 09:40-10:00"}},
+             Case{"a start ends the occupation that is running",
+                  {start("09:00", "A"), start("09:30", "B"), stop("09:40")},
+                  {"A#1 09:00-09:30", "B#1 09:30-09:40"}},
+             Case{"a set-up divides an occupation, events of other kinds do not",
+                  {start("09:00", "A"), event_of("setup", "09:05"), event_of("fault", "09:06"),
+                   event_of("setup", "09:07"), event_of("clock_step", "09:08"), stop("09:10")},
+                  {"A#1 09:00-09:05 09:05-09:07 09:07-09:10"}},
+             Case{"no set-up is before the start or of no length",
+                  {event_of("setup", "09:05"), start("09:10", "A"), event_of("setup", "09:10"),
+                   stop("09:20")},
+                  {"A#1 09:10-09:20"}},
+             Case{"a running occupation is left out", {start("09:00", "A")}, {}},
+             Case{"one of no length is left out", {start("09:00", "A"), stop("09:00")}, {}},
+             Case{"a stop alone is nothing", {stop("09:00")}, {}},
+             Case{"one that ends before it starts is kept as logged, with its number",
+                  {start("09:10", "A"), stop("09:00"), start("10:00", "A"), stop("10:10")},
+                  {"A#1 09:10-09:00", "A#2 10:00-10:10"}},
+             Case{"a discarded occupation is neither listed nor counted",
+                  {start("09:00", "A"), discard, stop("09:10"), start("10:00", "A"), stop("10:10")},
+                  {"A#1 10:00-10:10"}},
+             Case{"discard applies to the last one", two_and({discard}), {"A#1 09:00-09:10"}},
+             Case{"and then to that before", two_and({discard, discard}), {}},
+             Case{"and then to none", two_and({discard, discard, discard}), {}},
+             Case{"rename applies to the running one",
+                  {rename("C"), start("09:00", "A"), stop("09:10"), start("10:00", "B"),
+                   rename("C"), stop("10:10")},
+                  {"A#1 09:00-09:10", "C#1 10:00-10:10"}},
+             Case{"or otherwise to the last one",
+                  two_and({rename("C")}),
+                  {"A#1 09:00-09:10", "C#1 10:00-10:10"}},
+             Case{"the last one is that which was entered last, also with an earlier time",
+                  {start("10:00", "A"), stop("10:10"), start("09:00", "B"), stop("09:10"),
+                   rename("C"), start("08:00", "D"), stop("08:10"), discard},
+                  {"C#1 09:00-09:10", "A#1 10:00-10:10"}},
+         }) {
+        CAPTURE(law);
+        CHECK(shown(events) == expected);
+    }
     const auto both = occupations_of({start("09:00", "A"), start("09:30", "B"), stop("09:40")});
     CHECK_FALSE(both[0].is_stopped);
     CHECK(both[1].is_stopped);
 }
 
-TEST_CASE("a set-up event divides an occupation", "[record][occupations]") {
-    CHECK(shown({start("09:00", "A"), event_of("setup", "09:05"), event_of("setup", "09:07"),
-                 stop("09:10")}) == Lines{"A#1 09:00-09:05 09:05-09:07 09:07-09:10"});
-    CHECK(shown({event_of("setup", "09:05"), start("09:10", "A"), event_of("setup", "09:10"),
-                 stop("09:20")}) == Lines{"A#1 09:10-09:20"});
-}
-
-TEST_CASE("a running occupation and an occupation of no length are left out",
-          "[record][occupations]") {
-    CHECK(shown({start("09:00", "A")}).empty());
-    CHECK(shown({start("09:00", "A"), stop("09:00")}).empty());
-    CHECK(shown({stop("09:00")}).empty());
-}
-
-TEST_CASE("an occupation that ends before it starts is kept as logged, with its number",
-          "[record][occupations]") {
-    CHECK(shown({start("09:10", "A"), stop("09:00"), start("10:00", "A"), stop("10:10")}) ==
-          Lines{"A#1 09:10-09:00", "A#2 10:00-10:10"});
-}
-
-TEST_CASE("a discarded occupation is neither listed nor counted", "[record][occupations]") {
-    const auto discard = event_of("discard", "23:00");
-    CHECK(shown({start("09:00", "A"), discard, stop("09:10"), start("10:00", "A"),
-                 stop("10:10")}) == Lines{"A#1 10:00-10:10"});
-    const std::vector two{start("09:00", "A"), stop("09:10"), start("10:00", "A"), stop("10:10")};
-    auto events = two;
-    events.push_back(discard);
-    CHECK(shown(events) == Lines{"A#1 09:00-09:10"});
-    events.push_back(discard);
-    CHECK(shown(events).empty());
-    events.push_back(discard);
-    CHECK(shown(events).empty());
-}
-
-TEST_CASE("a rename applies to the running occupation, or otherwise to the last one",
-          "[record][occupations]") {
-    const auto rename = event_of("rename", "23:00", {{"site", "C"}});
-    CHECK(shown({rename, start("09:00", "A"), stop("09:10"), start("10:00", "B"), rename,
-                 stop("10:10")}) == Lines{"A#1 09:00-09:10", "C#1 10:00-10:10"});
-    CHECK(shown({start("09:00", "A"), stop("09:10"), start("10:00", "B"), stop("10:10"), rename}) ==
-          Lines{"A#1 09:00-09:10", "C#1 10:00-10:10"});
-}
-
-TEST_CASE("notes during an occupation are joined, other notes stay only in the log",
-          "[record][occupations]") {
+TEST_CASE("notes during an occupation are joined, other notes stay only in the log") {
     const auto note = [](const char* time, const char* text) {
         return event_of("note", time, {{"note", text}});
     };
@@ -157,8 +151,7 @@ TEST_CASE("notes during an occupation are joined, other notes stay only in the l
     CHECK(occupations[0].note == "wind; lorry; calm");
 }
 
-TEST_CASE("planned set-ups that are no whole number from 2 to 100 count as not given",
-          "[record][occupations]") {
+TEST_CASE("planned set-ups that are no whole number from 2 to 100 count as not given") {
     const auto planned = [](const char* text) {
         auto begin = start("09:00", "A");
         begin.details["set_ups"] = text;
@@ -173,8 +166,7 @@ TEST_CASE("planned set-ups that are no whole number from 2 to 100 count as not g
     }
 }
 
-TEST_CASE("another sensor ends the running occupation at the last sample of the one before",
-          "[record][occupations]") {
+TEST_CASE("another sensor ends the running occupation at the last sample of the one before") {
     const auto change = [](const char* at) {
         return event_of("other_unit", at, {{"before", "A1"}, {"serial_number", "B2"}});
     };
@@ -191,13 +183,9 @@ TEST_CASE("another sensor ends the running occupation at the last sample of the 
     CHECK(shown({start("10:00", "A"), change("09:50"), stop("10:10")}) == Lines{"A#1 10:00-10:10"});
 }
 
-TEST_CASE("events of other kinds change no occupation", "[record][occupations]") {
-    CHECK(shown({start("09:00", "A"), event_of("fault", "09:05"), event_of("clock_step", "09:06"),
-                 stop("09:10")}) == Lines{"A#1 09:00-09:10"});
-}
-
-TEST_CASE("a running occupation has its number, set-ups, operator and notes so far",
-          "[record][occupations]") {
+TEST_CASE(
+    "only a running occupation is running, and has its number, set-ups, operator and notes so "
+    "far") {
     auto begin = start("09:00", "A");
     begin.details["operator"] = "M. Ito";
     OccupationReplay replay({start("08:00", "A"), stop("08:10"), begin, event_of("setup", "09:05"),
@@ -210,20 +198,18 @@ TEST_CASE("a running occupation has its number, set-ups, operator and notes so f
     CHECK(running.set_ups == std::vector{begin.utc, at("2026-03-01T09:05:00Z")});
     replay.take(event_of("rename", "09:07", {{"site", "B"}}));
     CHECK(replay.running()->number == 1);
+    // New times move its start and give it no end.
+    replay.take(event_of("retime", "09:08",
+                         {{"key", "20260301T090000Z"},
+                          {"from", "2026-03-01T08:55:00Z"},
+                          {"to", "2026-03-01T09:07:00Z"}}));
+    CHECK(replay.running()->set_ups ==
+          std::vector{at("2026-03-01T08:55:00Z"), at("2026-03-01T09:05:00Z")});
+    CHECK_FALSE(OccupationReplay({start("09:00", "A"), stop("09:10")}).running());
+    CHECK_FALSE(OccupationReplay({start("09:00", "A"), event_of("discard", "09:05")}).running());
 }
 
-TEST_CASE("without a key, discard and rename apply to the occupation that ended last",
-          "[record][occupations]") {
-    std::vector events{start("10:00", "A"), stop("10:10"),
-                       // Entered afterwards, with an earlier time.
-                       start("09:00", "B"), stop("09:10"),
-                       event_of("rename", "10:20", {{"site", "C"}})};
-    CHECK(shown(events) == Lines{"C#1 09:00-09:10", "A#1 10:00-10:10"});
-    events.push_back(event_of("discard", "10:21"));
-    CHECK(shown(events) == Lines{"A#1 10:00-10:10"});
-}
-
-TEST_CASE("a stay has its start as key, which is never given twice", "[record][occupations]") {
+TEST_CASE("a stay has its start as key, which is never given twice") {
     OccupationReplay replay({start("09:00", "A"), stop("09:10"), event_of("discard", "09:11"),
                              start("09:00", "A"), stop("09:10")});
     CHECK(replay.finished()[0].key == "20260301T090001Z");
@@ -243,8 +229,7 @@ TEST_CASE("a stay has its start as key, which is never given twice", "[record][o
     CHECK(replay.running()->key == "20260301T100000Z");
 }
 
-TEST_CASE("a change applies to the stay that its key names, and to no other",
-          "[record][occupations]") {
+TEST_CASE("a change applies to the stay that its key names, and to no other") {
     const std::map<std::string, std::string> of_a{{"key", "20260301T090000Z"}};
     const auto with = [](std::map<std::string, std::string> details, const std::string& key,
                          const std::string& value) {
@@ -278,7 +263,7 @@ TEST_CASE("a change applies to the stay that its key names, and to no other",
     CHECK(then("resume", of_a) == before);  // another stay runs
 }
 
-TEST_CASE("a stay is resumed as if it had not been stopped", "[record][occupations]") {
+TEST_CASE("a stay is resumed as if it had not been stopped") {
     std::vector events{start("09:00", "A"), event_of("setup", "09:05"), stop("09:10"),
                        event_of("resume", "09:12", {{"key", "20260301T090000Z"}})};
     CHECK(OccupationReplay(events).running()->key == "20260301T090000Z");
@@ -291,26 +276,7 @@ TEST_CASE("a stay is resumed as if it had not been stopped", "[record][occupatio
     CHECK(shown(events).back() == "B#1 10:00-10:05");
 }
 
-TEST_CASE("new times of a running stay move its start and give it no end",
-          "[record][occupations]") {
-    OccupationReplay replay({start("09:00", "A"), event_of("setup", "09:05")});
-    replay.take(event_of("retime", "09:10",
-                         {{"key", "20260301T090000Z"},
-                          {"from", "2026-03-01T08:55:00Z"},
-                          {"to", "2026-03-01T09:07:00Z"}}));
-    CHECK(replay.running()->set_ups ==
-          std::vector{at("2026-03-01T08:55:00Z"), at("2026-03-01T09:05:00Z")});
-}
-
-TEST_CASE("an occupation without a stop is reported as running", "[record][occupations]") {
-    CHECK(OccupationReplay({start("09:00", "A"), stop("09:10"), start("09:20", "B")})
-              .running()
-              ->site == "B");
-    CHECK_FALSE(OccupationReplay({start("09:00", "A"), stop("09:10")}).running());
-    CHECK_FALSE(OccupationReplay({start("09:00", "A"), event_of("discard", "09:05")}).running());
-}
-
-TEST_CASE("the reference log has the occupations worked out by hand", "[record][occupations]") {
+TEST_CASE("the reference log has the occupations worked out by hand") {
     const std::filesystem::path golden = A351_GOLDEN "/events";
     const EventLog log = read_events(golden);
     CHECK(log.events.size() == 16);
