@@ -20,10 +20,10 @@ namespace a351::journal {
 /// name, synced, read back, compared and renamed; the directory is synced.  Only then the original
 /// is removed, and the directory is synced again.
 ///
-/// After any failure at least one of the two files holds the whole segment; journal_reader_test.cpp
-/// lets each file operation fail.  If both exist, segment_files() lists the original; another
-/// call replaces the compressed file.  A failure may leave `NAME.a351j.zst.partial`, which the next
-/// call removes.
+/// After any failure at least one of the two files holds the whole segment:
+/// compressed_segment_test.cpp lets each file operation fail.  If both exist, segment_files() lists
+/// the original; another call replaces the compressed file.  A failure may leave
+/// `NAME.a351j.zst.partial`, which the next call removes.
 ///
 /// The content of the segment is not interpreted, so damage in it is kept as it is.  Memory: twice
 /// the segment and its compressed form.  Compression is at level 3, zstd's default.

@@ -16,25 +16,44 @@
 using namespace a351::files;
 
 namespace a351::journal {
+namespace {
 
-TEST_CASE_METHOD(Fixture, "a compressed segment reads like the original", "[record][journal]") {
-    test::write_bytes(file_, whole_);
-    compress_segment(posix_files(), file_);
-    CHECK_FALSE(std::filesystem::exists(file_));
-    const auto segments = segment_files(directory_.path());
-    REQUIRE(segments.size() == 1);
-    Reader reader(segments[0]);
-    for (const auto& chunk : test::one_of_each()) {
-        const auto read = reader.next();
-        REQUIRE(read);
-        CHECK(read->index() == chunk.index());
+constexpr std::size_t kSizeFrame = 16;
+
+class Compressed : public Fixture {
+protected:
+    /// Compresses a segment.
+    /// @return its file
+    std::filesystem::path compressed(const Bytes& bytes) {
+        test::write_bytes(file_, bytes);
+        compress_segment(posix_files(), file_);
+        CHECK_FALSE(std::filesystem::exists(file_));
+        const auto segments = segment_files(directory_.path());
+        REQUIRE(segments.size() == 1);
+        return segments.front();
     }
-    CHECK_FALSE(reader.next());
-    CHECK(reader.damage().empty());
+};
+
+/// Returns where the frames of a compressed segment begin, and its end.
+std::vector<std::size_t> frames_of(const Bytes& packed) {
+    std::vector<std::size_t> frames{kSizeFrame};
+    while (frames.back() < packed.size())
+        frames.push_back(frames.back() +
+                         ZSTD_findFrameCompressedSize(packed.data() + frames.back(),
+                                                      packed.size() - frames.back()));
+    return frames;
+}
+
+}  // namespace
+
+TEST_CASE_METHOD(Compressed, "a compressed segment reads like the original") {
+    const auto reading = read_all(compressed(whole_));
+    CHECK(reading.kinds == kinds_of(test::one_of_each()));
+    CHECK_FALSE(reading.damage);
     CHECK_FALSE(repair_newest_segment(posix_files(), directory_.path()));
 }
 
-TEST_CASE_METHOD(Fixture, "a file to which a link leads is not compressed", "[record][journal]") {
+TEST_CASE_METHOD(Fixture, "a file to which a link leads is not compressed") {
     const auto victim = directory_.path() / "victim";
     test::write_bytes(victim, whole_);
     std::filesystem::create_symlink(victim, file_);
@@ -45,12 +64,9 @@ TEST_CASE_METHOD(Fixture, "a file to which a link leads is not compressed", "[re
     CHECK_FALSE(std::filesystem::exists(file_.string() + ".zst.partial"));
 }
 
-TEST_CASE_METHOD(Fixture,
-                 "damage in a compressed segment is reported and never thrown as an exception",
-                 "[record][journal]") {
-    test::write_bytes(file_, whole_);
-    compress_segment(posix_files(), file_);
-    const auto packed = segment_files(directory_.path()).front();
+TEST_CASE_METHOD(Compressed,
+                 "damage in a compressed segment is reported and never thrown as an exception") {
+    const auto packed = compressed(whole_);
     const auto whole = test::read_bytes(packed);
     for (std::size_t at = 0; at < whole.size(); ++at) {
         auto damaged = whole;
@@ -84,20 +100,14 @@ Bytes long_segment(std::uint32_t& chunk_count) {
 
 }  // namespace
 
-TEST_CASE_METHOD(Fixture, "a flipped bit in a compressed segment costs at most one of its frames",
-                 "[record][journal]") {
+TEST_CASE_METHOD(Compressed,
+                 "a flipped bit in a compressed segment costs at most one of its frames") {
     std::uint32_t chunk_count = 0;
-    test::write_bytes(file_, long_segment(chunk_count));
-    compress_segment(posix_files(), file_);
-    const auto packed = segment_files(directory_.path()).front();
+    const auto packed = compressed(long_segment(chunk_count));
     const auto whole = test::read_bytes(packed);
     REQUIRE(read_all(packed).chunk_count == chunk_count);
-    constexpr std::size_t kSizeFrame = 16, kFrames = 9;  // Eight of 512 KiB, and the rest.
-    std::vector<std::size_t> frames{kSizeFrame};
-    while (frames.size() < kFrames)
-        frames.push_back(frames.back() +
-                         ZSTD_findFrameCompressedSize(whole.data() + frames.back(),
-                                                      whole.size() - frames.back()));
+    const std::vector<std::size_t> frames = frames_of(whole);
+    REQUIRE(frames.size() == 10);  // Eight of 512 KiB, the rest, and the end.
 
     // A long test flips all bits of the stated size and of the begin of two frames.  A short one
     // flips every seventh bit, and at one frame only.
@@ -129,34 +139,24 @@ TEST_CASE_METHOD(Fixture, "a flipped bit in a compressed segment costs at most o
         most_lost = std::max(most_lost, missing);
     }
     std::printf("%zu flips, %u chunks in %zu frames: %.0f lost on average, %zu at most\n",
-                bits.size(), chunk_count, kFrames, lost / static_cast<double>(bits.size()),
-                most_lost);
+                bits.size(), chunk_count, frames.size() - 1,
+                lost / static_cast<double>(bits.size()), most_lost);
     CHECK(most_lost > 0);
     CHECK(most_lost <= chunk_count / 8 + 2);
 }
 
 TEST_CASE_METHOD(
-    Fixture, "a compressed segment cut at any byte has the chunks before, and the rest is damage",
-    "[record][journal][long]") {
-    std::vector<std::size_t> ends;  // Ends of the chunks.
-    auto bytes = encode_preamble();
-    append(bytes, encode_chunk(test::journal_header(), 0));
-    ends.push_back(bytes.size());
-    while (bytes.size() < std::size_t{5} << 18) {  // Three frames, of few bytes each.
-        const auto sequence = static_cast<std::uint32_t>(ends.size());
-        append(bytes, encode_chunk(test::rx_chunk(std::string(30'000, 'a'), "z"), sequence));
-        ends.push_back(bytes.size());
-    }
-    test::write_bytes(file_, bytes);
-    compress_segment(posix_files(), file_);
-    const auto packed = segment_files(directory_.path()).front();
+    Compressed,
+    "a compressed segment cut at any byte has the chunks before, and the rest is damage") {
+    std::vector<Chunk> chunks(45, test::rx_chunk(std::string(30'000, 'a'), "z"));
+    chunks.front() = test::journal_header();
+    const auto bytes = segment_of(chunks, &ends_);
+    ends_.erase(ends_.begin());
+    const auto packed = compressed(bytes);
     const auto whole = test::read_bytes(packed);
-    constexpr std::size_t kSizeFrame = 16, kFrame = std::size_t{1} << 19;
-    std::vector<std::size_t> frames{kSizeFrame};
-    while (frames.back() < whole.size())
-        frames.push_back(frames.back() +
-                         ZSTD_findFrameCompressedSize(whole.data() + frames.back(),
-                                                      whole.size() - frames.back()));
+    constexpr std::size_t kFrame = std::size_t{1} << 19;
+    const std::vector<std::size_t> frames = frames_of(whole);
+    REQUIRE(frames.size() == 4);  // Three of few bytes each, and the end.
 
     const std::size_t stride = test::is_long() ? 1 : 13;
     std::size_t cuts = 0, good = 0;
@@ -167,23 +167,22 @@ TEST_CASE_METHOD(
         const auto whole_frames = std::ranges::upper_bound(frames, size) - frames.begin() - 1;
         const auto unpacked =
             static_cast<std::size_t>(std::max<std::ptrdiff_t>(whole_frames, 0)) * kFrame;
-        const auto least = std::ranges::upper_bound(ends, unpacked) - ends.begin();
+        const auto least = std::ranges::upper_bound(ends_, unpacked) - ends_.begin();
         REQUIRE(reading.chunk_count >= static_cast<std::size_t>(least));
         REQUIRE(reading.chunk_count >= good);  // A longer part has no fewer chunks.
         good = reading.chunk_count;
         REQUIRE(reading.damage);
         REQUIRE((good == 0 || reading.sequences.back() == good - 1));
         if (good == 0) continue;
-        REQUIRE(reading.damage->offset == ends[good - 1]);
+        REQUIRE(reading.damage->offset == ends_[good - 1]);
         REQUIRE(reading.damage->offset + reading.damage->byte_count == bytes.size());
     }
     std::printf("%zu cuts of %zu bytes in %zu frames, %zu of %zu chunks at the last\n", cuts,
-                whole.size(), frames.size() - 1, good, ends.size());
+                whole.size(), frames.size() - 1, good, ends_.size());
 }
 
 TEST_CASE_METHOD(Fixture,
-                 "a segment of earlier versions in a single frame is read as far as possible",
-                 "[record][journal]") {
+                 "a segment of earlier versions in a single frame is read as far as possible") {
     std::uint32_t chunk_count = 0;
     const auto bytes = long_segment(chunk_count);
     Bytes packed(ZSTD_compressBound(bytes.size()));
@@ -199,8 +198,7 @@ TEST_CASE_METHOD(Fixture,
     CHECK(reading.damage);
 }
 
-TEST_CASE_METHOD(Fixture, "whichever file operation fails, compressing leaves a readable segment",
-                 "[record][journal]") {
+TEST_CASE_METHOD(Fixture, "whichever file operation fails, compressing leaves a readable segment") {
     for (int n = 1; n <= 8; ++n) {
         test::write_bytes(file_, whole_);
         test::FailingFiles files(n);
@@ -212,10 +210,7 @@ TEST_CASE_METHOD(Fixture, "whichever file operation fails, compressing leaves a 
         }
         const auto segments = segment_files(directory_.path());
         REQUIRE(segments.size() == 1);
-        Reader reader(segments[0]);
-        while (reader.next()) {
-        }
-        CHECK(reader.damage().empty());
+        CHECK_FALSE(read_all(segments[0]).damage);
         CHECK(has_failed == (n <= files.operations()));
         for (const auto& file : std::filesystem::directory_iterator(directory_.path()))
             std::filesystem::remove(file);

@@ -1,6 +1,5 @@
 #include "protocol/journal/journal_codec.hpp"
 
-#include <functional>
 #include <vector>
 #include "tests/support/catch.hpp"
 
@@ -15,6 +14,15 @@ std::span<const std::byte> payload_of(const std::vector<std::byte>& chunk) {
     return std::span(chunk).subspan(kChunkHeaderSize);
 }
 
+/// Returns a chunk after encoding and decoding.
+template <class T>
+T coded(const T& chunk) {
+    const auto bytes = encode_chunk(chunk, 1);
+    return std::get<T>(decode_payload(static_cast<ChunkType>(bytes[4]), payload_of(bytes)).value());
+}
+
+std::optional<Header> parsed(const Header& header) { return parse_header(header_to_json(header)); }
+
 std::uint32_t crc32c_of(std::span<const std::byte> nine_or_more) {
     // chunk_crc() covers length, type and sequence, little-endian, then the payload.
     const auto header = decode_chunk_header(nine_or_more.first(9));
@@ -23,7 +31,7 @@ std::uint32_t crc32c_of(std::span<const std::byte> nine_or_more) {
 
 }  // namespace
 
-TEST_CASE("a session identifier is kept as 32 hexadecimal digits", "[record][journal]") {
+TEST_CASE("a session identifier is kept as 32 hexadecimal digits") {
     const std::string hex = "00112233445566778899aabbccddeeff";
     const auto id = SessionId::from_hex(hex);
     REQUIRE(id);
@@ -36,7 +44,7 @@ TEST_CASE("a session identifier is kept as 32 hexadecimal digits", "[record][jou
     CHECK_FALSE(SessionId::from_hex("00112233445566778899aabbccddeefg"));
 }
 
-TEST_CASE("the checksum is CRC-32C with the check values of RFC 3720, B.4", "[record][journal]") {
+TEST_CASE("the checksum is CRC-32C with the check values of RFC 3720, B.4") {
     std::vector<std::byte> bytes(32, std::byte{0});
     CHECK(crc32c_of(bytes) == 0x8A9136AA);
     bytes.assign(32, std::byte{0xFF});
@@ -45,8 +53,7 @@ TEST_CASE("the checksum is CRC-32C with the check values of RFC 3720, B.4", "[re
     CHECK(crc32c_of(bytes) == 0x46DD794E);
 }
 
-TEST_CASE("each kind of chunk has the same bytes again after decoding and encoding",
-          "[record][journal]") {
+TEST_CASE("each kind of chunk has the same bytes again after decoding and encoding") {
     std::uint32_t sequence = 0;
     for (const auto& chunk : test::one_of_each()) {
         const auto bytes = encode_chunk(chunk, sequence++);
@@ -59,55 +66,42 @@ TEST_CASE("each kind of chunk has the same bytes again after decoding and encodi
     }
 }
 
-TEST_CASE("a decoded header has all fields that were encoded", "[record][journal]") {
+TEST_CASE("a decoded header has all fields that were encoded") {
     auto header = test::journal_header();
     header.is_device_assumed = true;
     header.start_up_test = wire::StartUpTest::flash_error;
     header.port = "/dev/serial/by-id/adapter";
-    const auto read = parse_header(header_to_json(header));
-    REQUIRE(read);
-    CHECK(read->session == header.session);
-    CHECK(read->boot_id == header.boot_id);
-    CHECK(read->codes == header.codes);
-    CHECK(read->profile == header.profile);
-    CHECK(read->product_id == header.product_id);
-    CHECK(read->serial_number == header.serial_number);
-    CHECK(read->firmware == header.firmware);
-    CHECK(read->output_rate_hz == header.output_rate_hz);
-    CHECK(read->filter == header.filter);
-    CHECK(read->burst_ctrl == header.burst_ctrl);
-    CHECK(read->baud == header.baud);
-    CHECK(read->declared_rate_hz == header.declared_rate_hz);
-    CHECK(read->is_device_assumed);
-    CHECK(read->start_up_test == header.start_up_test);
-    CHECK(read->port == header.port);
-    CHECK(read->clock == header.clock);
+    const auto fields = [](const Header& h) {
+        return std::tie(h.session, h.boot_id, h.codes, h.profile, h.product_id, h.serial_number,
+                        h.firmware, h.output_rate_hz, h.filter, h.burst_ctrl, h.baud,
+                        h.declared_rate_hz, h.is_device_assumed, h.start_up_test, h.port, h.clock);
+    };
+    CHECK(fields(parsed(header).value()) == fields(header));
     auto uncommissioned = header;
     uncommissioned.declared_rate_hz.reset();
     uncommissioned.oven_interval = std::chrono::seconds(10);
-    CHECK(parse_header(header_to_json(uncommissioned))->oven_interval == std::chrono::seconds(10));
+    CHECK(parsed(uncommissioned)->oven_interval == std::chrono::seconds(10));
     uncommissioned.oven_interval = std::chrono::seconds(0);  // The archive needs more than 0.
-    CHECK_FALSE(parse_header(header_to_json(uncommissioned)));
+    CHECK_FALSE(parsed(uncommissioned));
     uncommissioned.oven_interval = std::chrono::seconds(1);
-    CHECK(parse_header(header_to_json(uncommissioned))->record_age == std::chrono::seconds(60));
+    CHECK(parsed(uncommissioned)->record_age == std::chrono::seconds(60));
     uncommissioned.record_age = std::chrono::seconds(1);
-    CHECK(parse_header(header_to_json(uncommissioned))->record_age == std::chrono::seconds(1));
+    CHECK(parsed(uncommissioned)->record_age == std::chrono::seconds(1));
     for (const int wrong_s : {0, 61}) {
         uncommissioned.record_age = std::chrono::seconds(wrong_s);
-        CHECK_FALSE(parse_header(header_to_json(uncommissioned)));
+        CHECK_FALSE(parsed(uncommissioned));
     }
     uncommissioned.record_age = std::chrono::seconds(60);
     CHECK(header_to_json(uncommissioned).find("oven_interval") == std::string::npos);
     uncommissioned.outer_oven_interval = std::chrono::seconds(5);
-    CHECK(parse_header(header_to_json(uncommissioned))->outer_oven_interval ==
-          std::chrono::seconds(5));
-    CHECK(parse_header(header_to_json(uncommissioned))->oven_interval == std::chrono::seconds(1));
+    CHECK(parsed(uncommissioned)->outer_oven_interval == std::chrono::seconds(5));
+    CHECK(parsed(uncommissioned)->oven_interval == std::chrono::seconds(1));
     uncommissioned.outer_oven_interval = std::chrono::seconds(1);
-    CHECK_FALSE(parse_header(header_to_json(uncommissioned))->declared_rate_hz);
+    CHECK_FALSE(parsed(uncommissioned)->declared_rate_hz);
     uncommissioned.declared_rate_hz =
         1.2 * uncommissioned.output_rate_hz;  // No record can have it.
-    CHECK_FALSE(parse_header(header_to_json(uncommissioned)));
-    const auto as_asked = parse_header(header_to_json(test::journal_header()));
+    CHECK_FALSE(parsed(uncommissioned));
+    const auto as_asked = parsed(test::journal_header());
     CHECK_FALSE(as_asked->is_device_assumed);
     CHECK(as_asked->port.empty());
     CHECK(as_asked->start_up_test == wire::StartUpTest::passed);
@@ -116,19 +110,9 @@ TEST_CASE("a decoded header has all fields that were encoded", "[record][journal
     CHECK_FALSE(parse_header(wrong));
 }
 
-TEST_CASE("a header is readable even if the serial number is not text", "[record][journal]") {
-    auto header = test::journal_header();
-    header.serial_number = "\xFF\x01\"\\";
-    const auto read = parse_header(header_to_json(header));
-    REQUIRE(read);
-    CHECK(read->serial_number == "\xEF\xBF\xBD\x01\"\\");
-}
-
-TEST_CASE("a header with a missing field or a field of another type is refused",
-          "[record][journal]") {
-    CHECK_FALSE(parse_header(""));
-    CHECK_FALSE(parse_header("[]"));
-    CHECK_FALSE(parse_header("{"));
+TEST_CASE(
+    "a header with a missing field, or with codes that would name another directory, is refused") {
+    for (const char* const other : {"", "[]", "{"}) CHECK_FALSE(parse_header(other));
     const auto json = header_to_json(test::journal_header());
     for (const std::string key : {"session", "boot_id", "axes", "clock", "baud", "raw_ns"}) {
         auto without = json;
@@ -138,24 +122,18 @@ TEST_CASE("a header with a missing field or a field of another type is refused",
     auto of_other_type = json;
     of_other_type.replace(of_other_type.find("460800"), 6, "\"fast\"");
     CHECK_FALSE(parse_header(of_other_type));
-}
-
-TEST_CASE(
-    "a header with station codes that would name another directory than the archive's is refused",
-    "[record][journal]") {
-    CHECK(parse_header(header_to_json(Header())));
-    for (const auto& spoil : std::vector<std::function<void(StationCodes&)>>{
-             [](auto& codes) { codes.network = "."; }, [](auto& codes) { codes.network = ""; },
-             [](auto& codes) { codes.station = "../.."; },
-             [](auto& codes) { codes.station = "A35-"; }, [](auto& codes) { codes.location = "/"; },
-             [](auto& codes) { codes.axes[1] = "/x"; }}) {
+    CHECK(parsed(Header()));
+    for (const StationCodes& codes :
+         {StationCodes{.network = "."}, StationCodes{.network = ""},
+          StationCodes{.station = "../.."}, StationCodes{.station = "A35-"},
+          StationCodes{.location = "/"}, StationCodes{.axes = {"1", "/x", "Z"}}}) {
         Header header;
-        spoil(header.codes);
-        CHECK_FALSE(parse_header(header_to_json(header)));
+        header.codes = codes;
+        CHECK_FALSE(parsed(header));
     }
 }
 
-TEST_CASE("a chunk with a time outside the usable range is refused", "[record][journal]") {
+TEST_CASE("a chunk with a time outside the usable range is refused") {
     timing::ClockReading clock;
     const auto comes_back = [&] {
         return decode_payload(ChunkType::clock, payload_of(encode_chunk(clock, 1))).has_value();
@@ -170,49 +148,36 @@ TEST_CASE("a chunk with a time outside the usable range is refused", "[record][j
     CHECK_FALSE(comes_back());
     Header header;
     header.clock = clock;
-    CHECK_FALSE(parse_header(header_to_json(header)));
+    CHECK_FALSE(parsed(header));
     RxChunk rx;
     rx.bytes.resize(1);
     rx.reads.push_back({1, RawTime(kLatestInstant + Nanoseconds(1))});
     CHECK_FALSE(decode_payload(ChunkType::rx, payload_of(encode_chunk(rx, 1))));
 }
 
-TEST_CASE("an uncertainty of decades, after a start in 1970, is no damage", "[record][journal]") {
+TEST_CASE("values at the limits of their fields are decoded as they were encoded") {
     ModelChunk model;
     model.time.utc = UtcTime(std::chrono::seconds(11));
-    model.time.uncertainty = std::chrono::hours(24 * 365 * 57);
-    const auto decoded = decode_payload(ChunkType::model, payload_of(encode_chunk(model, 1)));
-    REQUIRE(decoded);
-    CHECK(std::get<ModelChunk>(*decoded).time.uncertainty == kLongestSpan);
-}
-
-TEST_CASE("the time stamps of reads keep their order and their nanoseconds", "[record][journal]") {
-    RxChunk rx;
+    model.time.uncertainty = std::chrono::hours(24 * 365 * 57);  // After a start in 1970.
+    CHECK(coded(model).time.uncertainty == kLongestSpan);
+    RxChunk rx;  // The time stamps of reads keep their order and their nanoseconds.
     rx.bytes.resize(300);
     rx.reads = {{1, RawTime(Nanoseconds(5'000'000'001))},
                 {200, RawTime(Nanoseconds(5'000'000'000))},  // Clock went back; kept as it is.
                 {300, RawTime(Nanoseconds(9'999'999'999))}};
-    const auto bytes = encode_chunk(rx, 1);
-    const auto decoded = decode_payload(ChunkType::rx, payload_of(bytes));
-    REQUIRE(decoded);
-    CHECK(std::get<RxChunk>(*decoded).reads == rx.reads);
-}
-
-TEST_CASE("an announced leap second is kept in readings and headers", "[record][journal]") {
-    using timing::LeapSecond;
-    for (const LeapSecond leap : {LeapSecond::none, LeapSecond::inserted, LeapSecond::removed}) {
-        auto header = test::journal_header();
+    CHECK(coded(rx).reads == rx.reads);
+    auto header = test::journal_header();
+    for (const auto leap :
+         {timing::LeapSecond::none, timing::LeapSecond::inserted, timing::LeapSecond::removed}) {
         header.clock.leap = leap;
-        CHECK(parse_header(header_to_json(header))->clock == header.clock);
-        const auto bytes = encode_chunk(header.clock, 1);
-        const auto decoded = decode_payload(ChunkType::clock, payload_of(bytes));
-        REQUIRE(decoded);
-        CHECK(std::get<timing::ClockReading>(*decoded) == header.clock);
+        CHECK(parsed(header)->clock == header.clock);
+        CHECK(coded(header.clock) == header.clock);
     }
+    header.serial_number = "\xFF\x01\"\\";  // no text
+    CHECK(parsed(header).value().serial_number == "\xEF\xBF\xBD\x01\"\\");
 }
 
-TEST_CASE("a payload that is cut anywhere is refused, unless it ends in a field of free length",
-          "[record][journal]") {
+TEST_CASE("a payload that is cut anywhere is refused, unless it ends in a field of free length") {
     for (const auto& chunk : test::one_of_each()) {
         const auto bytes = encode_chunk(chunk, 0);
         const auto type = static_cast<ChunkType>(bytes[4]);
@@ -227,49 +192,37 @@ TEST_CASE("a payload that is cut anywhere is refused, unless it ends in a field 
     }
 }
 
-TEST_CASE("a read count larger than the payload is refused before memory is allocated",
-          "[record][journal]") {
+TEST_CASE("a read count larger than the payload is refused before memory is allocated") {
     auto bytes = encode_chunk(test::rx_chunk("a", "b"), 1);
     auto payload = std::vector<std::byte>(bytes.begin() + kChunkHeaderSize, bytes.end());
     for (std::size_t i = 8; i < 12; ++i) payload[i] = std::byte{0xFF};
     CHECK_FALSE(decode_payload(ChunkType::rx, payload));
 }
 
-TEST_CASE("a decoded poll of the oven has all fields that were encoded", "[record][journal]") {
-    for (const OvenOutcome outcome :
-         {OvenOutcome::answered, OvenOutcome::timed_out, OvenOutcome::bad_crc,
-          OvenOutcome::exception, OvenOutcome::other_unit, OvenOutcome::malformed,
-          OvenOutcome::no_port}) {
-        OvenChunk poll{RawTime(Nanoseconds(-7)), outcome, 2, {}};
-        if (outcome == OvenOutcome::answered) poll.registers = {0xFF9C, 0x8001, 0x01A9};
-        const auto bytes = encode_chunk(poll, 1);
-        const auto decoded = decode_payload(ChunkType::oven, payload_of(bytes));
-        REQUIRE(decoded);
-        const auto& read = std::get<OvenChunk>(*decoded);
-        CHECK(read.time == poll.time);
-        CHECK(read.outcome == outcome);
-        CHECK(read.decimals == 2);
-        CHECK(read.registers == poll.registers);
-        CHECK(read.place == OvenPlace::inner);
+TEST_CASE("a decoded poll of an oven has all fields that were encoded, the place in its type") {
+    for (const OvenPlace place : {OvenPlace::inner, OvenPlace::outer}) {
+        for (const OvenOutcome outcome :
+             {OvenOutcome::answered, OvenOutcome::timed_out, OvenOutcome::bad_crc,
+              OvenOutcome::exception, OvenOutcome::other_unit, OvenOutcome::malformed,
+              OvenOutcome::no_port}) {
+            OvenChunk poll{RawTime(Nanoseconds(-7)), outcome, 2, {}};
+            if (outcome == OvenOutcome::answered) poll.registers = {0xFF9C, 0x8001, 0x01A9};
+            const auto inner = encode_chunk(poll, 1);
+            poll.place = place;
+            const auto bytes = encode_chunk(poll, 1);
+            CHECK(bytes[4] == (place == OvenPlace::inner ? std::byte{8} : std::byte{9}));
+            CHECK(std::ranges::equal(payload_of(inner), payload_of(bytes)));
+            const auto read = coded(poll);
+            CHECK(read.time == poll.time);
+            CHECK(read.outcome == outcome);
+            CHECK(read.decimals == 2);
+            CHECK(read.registers == poll.registers);
+            CHECK(read.place == place);
+        }
     }
 }
 
-TEST_CASE("a poll of the outer oven differs from one of the inner by its type only",
-          "[record][journal]") {
-    OvenChunk poll{RawTime(Nanoseconds(5)), OvenOutcome::answered, 1, {380}};
-    const auto inner = encode_chunk(poll, 1);
-    poll.place = OvenPlace::outer;
-    const auto outer = encode_chunk(poll, 1);
-    CHECK(inner[4] == std::byte{8});
-    CHECK(outer[4] == std::byte{9});
-    CHECK(std::ranges::equal(payload_of(inner), payload_of(outer)));
-    const auto decoded = decode_payload(ChunkType::outer_oven, payload_of(outer));
-    REQUIRE(decoded);
-    CHECK(std::get<OvenChunk>(*decoded).place == OvenPlace::outer);
-}
-
-TEST_CASE("a poll of unknown outcome, or with registers that do not fit its outcome, is refused",
-          "[record][journal]") {
+TEST_CASE("a poll of unknown outcome, or with registers that do not fit its outcome, is refused") {
     const OvenChunk silent{RawTime(), OvenOutcome::timed_out, 1, {}};
     const auto bytes = encode_chunk(silent, 1);
     std::vector<std::byte> payload(bytes.begin() + kChunkHeaderSize, bytes.end());
@@ -285,7 +238,7 @@ TEST_CASE("a poll of unknown outcome, or with registers that do not fit its outc
         std::invalid_argument);
 }
 
-TEST_CASE("a chunk that violates the format is not encoded", "[record][journal]") {
+TEST_CASE("a chunk that violates the format is not encoded") {
     RxChunk rx = test::rx_chunk("ab", "c");
     rx.reads.back().end = 2;
     CHECK_THROWS_AS(encode_chunk(rx, 1), std::invalid_argument);

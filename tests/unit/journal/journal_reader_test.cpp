@@ -1,7 +1,6 @@
 #include "protocol/journal/journal_reader.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <random>
 #include <system_error>
 #include "tests/support/catch.hpp"
@@ -18,44 +17,28 @@ using namespace a351::files;
 
 namespace a351::journal {
 
-TEST_CASE_METHOD(Fixture, "an intact segment is read without damage", "[record][journal]") {
-    const auto reading = read(whole_);
-    CHECK(reading.chunk_count == 8);
-    CHECK_FALSE(reading.damage);
-}
-
-TEST_CASE_METHOD(Fixture, "a tail torn at any byte costs only the chunks from there on",
-                 "[record][journal]") {
-    std::vector<std::size_t> ends{kPreambleSize};
-    std::uint32_t sequence = 0;
-    for (const auto& chunk : test::one_of_each()) {
-        ends.push_back(ends.back() + encode_chunk(chunk, sequence++).size());
-    }
+TEST_CASE_METHOD(Fixture, "a tail torn at any byte costs only the chunks from there on") {
     for (std::size_t size = 0; size <= whole_.size(); ++size) {
         const auto reading = read(Bytes(whole_.begin(), whole_.begin() + std::ptrdiff_t(size)));
         std::size_t good = 0;
-        while (good + 1 < ends.size() && ends[good + 1] <= size) ++good;
+        while (good + 1 < ends_.size() && ends_[good + 1] <= size) ++good;
         REQUIRE(reading.chunk_count == good);
-        const bool is_clean = good > 0 && ends[good] == size;
+        const bool is_clean = good > 0 && ends_[good] == size;
         REQUIRE(reading.damage.has_value() == !is_clean);
         if (is_clean) continue;
         // Without its header no part of a segment is valid.
-        REQUIRE(reading.damage->offset == (good > 0 ? ends[good] : 0));
+        REQUIRE(reading.damage->offset == (good > 0 ? ends_[good] : 0));
         REQUIRE(reading.damage->offset + reading.damage->byte_count == size);
     }
 }
 
-TEST_CASE_METHOD(Fixture, "repair of a tail torn at any byte keeps the whole chunks and all bytes",
-                 "[record][journal]") {
-    std::vector<std::size_t> ends{0};
-    std::size_t end = kPreambleSize;
-    std::uint32_t sequence = 0;
-    for (const auto& chunk : test::one_of_each())
-        ends.push_back(end += encode_chunk(chunk, sequence++).size());
+TEST_CASE_METHOD(Fixture,
+                 "repair of a tail torn at any byte keeps the whole chunks and all bytes") {
+    ends_.front() = 0;  // A preamble alone is not kept.
     const std::filesystem::path torn = file_.string() + ".torn";
     for (std::size_t size = 0; size <= whole_.size(); ++size) {
         const auto cut = whole_.begin() + std::ptrdiff_t(size);
-        const std::size_t kept = *std::prev(std::ranges::upper_bound(ends, size));
+        const std::size_t kept = *std::prev(std::ranges::upper_bound(ends_, size));
         test::write_bytes(file_, Bytes(whole_.begin(), cut));
         std::filesystem::remove(torn);
         const auto damage = repair_newest_segment(posix_files(), directory_.path());
@@ -63,27 +46,26 @@ TEST_CASE_METHOD(Fixture, "repair of a tail torn at any byte keeps the whole chu
         REQUIRE(std::filesystem::exists(file_) == (kept > 0));
         const auto end_of_kept = whole_.begin() + std::ptrdiff_t(kept);
         if (kept > 0) REQUIRE(test::read_bytes(file_) == Bytes(whole_.begin(), end_of_kept));
-        if (damage) REQUIRE(test::read_bytes(torn) == Bytes(end_of_kept, cut));
+        if (!damage) continue;
+        REQUIRE(damage->offset == kept);
+        REQUIRE(test::read_bytes(torn) == Bytes(end_of_kept, cut));
+        REQUIRE_FALSE(repair_newest_segment(posix_files(), directory_.path()));  // nothing left
     }
+    CHECK_FALSE(repair_newest_segment(posix_files(), directory_.path() / "absent"));
 }
 
-TEST_CASE_METHOD(Fixture, "a flipped bit costs the chunk that it is in, and no other",
-                 "[record][journal]") {
-    std::vector<std::size_t> ends{kPreambleSize};
-    std::uint32_t sequence = 0;
-    for (const auto& chunk : test::one_of_each())
-        ends.push_back(ends.back() + encode_chunk(chunk, sequence++).size());
+TEST_CASE_METHOD(Fixture, "a flipped bit costs the chunk that it is in, and no other") {
     for (std::size_t at = 0; at < 8 * whole_.size(); ++at) {
         auto bytes = whole_;
         bytes[at / 8] ^= static_cast<std::byte>(1U << (at % 8));
         const auto reading = read(bytes);
         REQUIRE(reading.damage);
-        if (at / 8 < ends[1]) {  // Without its header no part of a segment is valid.
+        if (at / 8 < ends_[1]) {  // Without its header no part of a segment is valid.
             REQUIRE(reading.chunk_count == 0);
             REQUIRE(reading.damage->byte_count == whole_.size());
             continue;
         }
-        const auto end = std::ranges::upper_bound(ends, at / 8);
+        const auto end = std::ranges::upper_bound(ends_, at / 8);
         REQUIRE(reading.chunk_count == 7);
         REQUIRE(reading.damage->offset == *(end - 1));
         REQUIRE(reading.damage->offset + reading.damage->byte_count == *end);
@@ -91,8 +73,7 @@ TEST_CASE_METHOD(Fixture, "a flipped bit costs the chunk that it is in, and no o
     }
 }
 
-TEST_CASE_METHOD(Fixture, "bytes of zeros inside a segment cost only the chunks in them",
-                 "[record][journal]") {
+TEST_CASE_METHOD(Fixture, "bytes of zeros inside a segment cost only the chunks in them") {
     std::vector<Chunk> chunks{test::journal_header()};
     for (int i = 0; i < 100; ++i) chunks.push_back(test::rx_chunk("0123456789", "abcdefghij"));
     const auto whole = segment_of(chunks);
@@ -108,7 +89,7 @@ TEST_CASE_METHOD(Fixture, "bytes of zeros inside a segment cost only the chunks 
     }
 }
 
-TEST_CASE_METHOD(Fixture, "random damage never crashes the reader", "[record][journal]") {
+TEST_CASE_METHOD(Fixture, "random damage never crashes the reader") {
     std::mt19937_64 random(11);
     for (int round = 0; round < 2000; ++round) {
         auto bytes = whole_;
@@ -119,55 +100,46 @@ TEST_CASE_METHOD(Fixture, "random damage never crashes the reader", "[record][jo
     }
 }
 
-TEST_CASE_METHOD(Fixture, "a chunk length above 64 KiB is damage", "[record][journal]") {
-    auto bytes = segment_of({test::journal_header()});
-    const auto good = bytes.size();
-    append(bytes, {std::byte{0xFF}, std::byte{0xFF}, std::byte{0xFF}, std::byte{0xFF}});
-    bytes.resize(bytes.size() + 200'000);
-    const auto reading = read(bytes);
-    CHECK(reading.chunk_count == 1);
-    CHECK(reading.damage->offset == good);
-    CHECK(reading.damage->reason == "impossible length");
+TEST_CASE_METHOD(Fixture, "bytes that are no chunk of a segment are damage from there to the end") {
+    const auto header = segment_of({test::journal_header()});
+    const auto behind = [](Bytes bytes, const Bytes& more) {
+        append(bytes, more);
+        return bytes;
+    };
+    const auto chunk = segment_of({test::journal_header(), test::rx_chunk("a", "b")});
+    auto other_version = whole_;
+    other_version[8] = std::byte{2};
+    Bytes too_long(200'004);
+    std::fill_n(too_long.begin(), 4, std::byte{0xFF});  // A length above 64 KiB.
+    struct Case {
+        Bytes bytes;
+        std::size_t good, offset;
+        const char* reason;
+    };
+    for (const auto& [bytes, good, offset, reason] : {
+             Case{behind(header, too_long), 1, header.size(), "impossible length"},
+             Case{behind(chunk, encode_chunk(test::rx_chunk("c", "d"), 1)), 2, chunk.size(),
+                  "wrong sequence number"},
+             Case{segment_of({test::journal_header(), test::journal_header()}), 1, header.size(),
+                  "header inside the segment"},
+             Case{segment_of({test::rx_chunk("a", "b")}), 0, 0, "no header"},
+             Case{encode_preamble(), 0, 0, "no header"},
+             Case{other_version, 0, 0, "not a journal of this version"},
+             Case{Bytes(100, std::byte{'x'}), 0, 0, "not a journal of this version"},
+             // Zeros, as a file system may leave after a power cut.
+             Case{behind(whole_, Bytes(4096)), 8, whole_.size(), nullptr},
+         }) {
+        const auto reading = read(bytes);
+        CHECK(reading.chunk_count == good);
+        REQUIRE(reading.damage);
+        CHECK(reading.damage->offset == offset);
+        CHECK(reading.damage->offset + reading.damage->byte_count == bytes.size());
+        if (reason != nullptr) CHECK(reading.damage->reason == reason);
+    }
+    CHECK_THROWS_AS(Reader("/nonexistent/1.a351j"), std::system_error);
 }
 
-TEST_CASE_METHOD(Fixture, "a chunk with the sequence number of the one before is damage",
-                 "[record][journal]") {
-    auto bytes = encode_preamble();
-    append(bytes, encode_chunk(test::journal_header(), 0));
-    append(bytes, encode_chunk(test::rx_chunk("a", "b"), 1));
-    append(bytes, encode_chunk(test::rx_chunk("c", "d"), 1));
-    const auto reading = read(bytes);
-    CHECK(reading.chunk_count == 2);
-    CHECK(reading.damage->reason == "wrong sequence number");
-}
-
-TEST_CASE_METHOD(Fixture, "a file that does not begin with a header is not a segment",
-                 "[record][journal]") {
-    auto reading = read(segment_of({test::rx_chunk("a", "b")}));
-    CHECK(reading.chunk_count == 0);
-    CHECK(reading.damage->offset == 0);
-    CHECK(reading.damage->reason == "no header");
-    reading = read(encode_preamble());
-    CHECK(reading.damage->reason == "no header");
-}
-
-TEST_CASE_METHOD(Fixture, "a second header is damage", "[record][journal]") {
-    const auto reading = read(segment_of({test::journal_header(), test::journal_header()}));
-    CHECK(reading.chunk_count == 1);
-    CHECK(reading.damage->reason == "header inside the segment");
-}
-
-TEST_CASE_METHOD(Fixture, "garbage after the last good chunk is reported with its size",
-                 "[record][journal]") {
-    auto bytes = whole_;
-    bytes.resize(bytes.size() + 4096);  // Zeros, as a file system may leave after a power cut.
-    const auto reading = read(bytes);
-    CHECK(reading.chunk_count == 8);
-    CHECK(reading.damage->offset == whole_.size());
-    CHECK(reading.damage->byte_count == 4096);
-}
-
-TEST_CASE_METHOD(Fixture, "a chunk of an unknown type is skipped", "[record][journal]") {
+TEST_CASE_METHOD(Fixture, "a chunk of an unknown type is skipped") {
     auto bytes = segment_of({test::journal_header()});
     auto unknown = encode_chunk(EventChunk{"of a later version"}, 1);
     unknown[4] = std::byte{200};
@@ -183,20 +155,7 @@ TEST_CASE_METHOD(Fixture, "a chunk of an unknown type is skipped", "[record][jou
     CHECK_FALSE(reading.damage);
 }
 
-TEST_CASE_METHOD(Fixture, "a file of another version or of another kind is refused",
-                 "[record][journal]") {
-    auto bytes = whole_;
-    bytes[8] = std::byte{2};
-    CHECK(read(bytes).damage->reason == "not a journal of this version");
-    CHECK(read(Bytes(100, std::byte{'x'})).damage->reason == "not a journal of this version");
-}
-
-TEST_CASE("opening a segment that does not exist is a system error", "[record][journal]") {
-    CHECK_THROWS_AS(Reader("/nonexistent/1.a351j"), std::system_error);
-}
-
-TEST_CASE("chunks that a later segment repeats are read once and in order, whatever is damaged",
-          "[record][journal]") {
+TEST_CASE("chunks that a later segment repeats are read once and in order, whatever is damaged") {
     // Chunks 1 ... 6 of segment 1; segment 2, given up, and segment 3 repeat those from 4 on.
     const auto text_of = [](int i) { return test::rx_chunk(std::string(20, char('a' + i)), "z"); };
     const auto bytes_of = [&](std::optional<RepeatedChunks> repeats, int first, int last) {
@@ -237,8 +196,7 @@ TEST_CASE("chunks that a later segment repeats are read once and in order, whate
     }
 }
 
-TEST_CASE("segments are listed in the order of their counter, whatever the host clock showed",
-          "[record][journal]") {
+TEST_CASE("segments are listed in the order of their counter, whatever the host clock showed") {
     const test::TemporaryDirectory directory;
     for (const char* name :
          {"00000010_20260301T120000Z.a351j", "00000009_20270101T000000Z.a351j",
@@ -256,8 +214,8 @@ TEST_CASE("segments are listed in the order of their counter, whatever the host 
     CHECK(segment_files(directory.path() / "absent").empty());
 }
 
-TEST_CASE("segments that a journal lacks are named, but for torn ones and those before the oldest",
-          "[record][journal]") {
+TEST_CASE(
+    "segments that a journal lacks are named, but for torn ones and those before the oldest") {
     const test::TemporaryDirectory directory;
     for (const char* name :
          {"00000003_20260301T120000Z.a351j.zst", "00000004_20260301T130000Z.a351j.torn",
@@ -274,23 +232,7 @@ TEST_CASE("segments that a journal lacks are named, but for torn ones and those 
     CHECK(absent[1].last == 9U);
 }
 
-TEST_CASE_METHOD(Fixture,
-                 "repair moves a torn tail to a side file, and then has nothing left to do",
-                 "[record][journal]") {
-    auto torn = whole_;
-    const Bytes rest(17, std::byte{0xAA});
-    append(torn, rest);
-    test::write_bytes(file_, torn);
-    const auto damage = repair_newest_segment(posix_files(), directory_.path());
-    REQUIRE(damage);
-    CHECK(damage->offset == whole_.size());
-    CHECK(test::read_bytes(file_) == whole_);
-    CHECK(test::read_bytes(file_.string() + ".torn") == rest);
-    CHECK_FALSE(repair_newest_segment(posix_files(), directory_.path()));
-}
-
-TEST_CASE_METHOD(Fixture, "repair copies nothing from a file to which a link leads",
-                 "[record][journal]") {
+TEST_CASE_METHOD(Fixture, "repair copies nothing from a file to which a link leads") {
     auto torn = whole_;
     append(torn, Bytes(17, std::byte{0xAA}));
     const auto victim = directory_.path() / "victim";
@@ -303,38 +245,28 @@ TEST_CASE_METHOD(Fixture, "repair copies nothing from a file to which a link lea
     CHECK(test::read_bytes(victim) == torn);
 }
 
-TEST_CASE_METHOD(Fixture, "repair leaves good chunks behind damage in their place",
-                 "[record][journal]") {
+TEST_CASE_METHOD(Fixture, "repair leaves good chunks behind damage in their place") {
     auto damaged = whole_;
-    const std::size_t third = kPreambleSize + encode_chunk(test::one_of_each()[0], 0).size() + 15;
-    damaged[third] ^= std::byte{4};
+    damaged[ends_[1] + 15] ^= std::byte{4};  // in the second chunk
     test::write_bytes(file_, damaged);
     CHECK_FALSE(repair_newest_segment(posix_files(), directory_.path()));
     CHECK(test::read_bytes(file_) == damaged);
     CHECK(read_all(file_).chunk_count == 7);
 }
 
-TEST_CASE_METHOD(Fixture, "repair moves a segment without a header out of the way",
-                 "[record][journal]") {
+TEST_CASE_METHOD(Fixture,
+                 "repair moves a segment without a header away, and its number stays used") {
     test::write_bytes(file_, Bytes(whole_.begin(), whole_.begin() + 20));
     REQUIRE(repair_newest_segment(posix_files(), directory_.path()));
-    CHECK_FALSE(std::filesystem::exists(file_));
     CHECK(std::filesystem::file_size(file_.string() + ".torn") == 20);
     CHECK(segment_files(directory_.path()).empty());
     CHECK_FALSE(repair_newest_segment(posix_files(), directory_.path()));
-    // Its number is not used again.
     Writer writer(posix_files(), directory_.path());
     writer.begin_segment(test::journal_header());
     CHECK(segment_number(segment_files(directory_.path()).back()) == 2U);
 }
 
-TEST_CASE("repair of an empty or absent directory does nothing", "[record][journal]") {
-    const test::TemporaryDirectory directory;
-    CHECK_FALSE(repair_newest_segment(posix_files(), directory.path()));
-    CHECK_FALSE(repair_newest_segment(posix_files(), directory.path() / "absent"));
-}
-
-TEST_CASE("writing reproduces the reference segment byte for byte", "[record][journal]") {
+TEST_CASE("writing reproduces the reference segment byte for byte") {
     const auto expected = test::read_bytes(A351_GOLDEN "/journal/00000001_20260301T130000Z.a351j");
     CHECK(segment_of(test::one_of_each()) == expected);
     const auto reading = read_all(A351_GOLDEN "/journal/00000001_20260301T130000Z.a351j");

@@ -1,13 +1,12 @@
 #include "protocol/journal/journal_writer.hpp"
 
-#include <algorithm>
 #include <system_error>
 #include "tests/support/catch.hpp"
 
 #include "protocol/journal/journal_reader.hpp"
 #include "tests/support/temporary_directory.hpp"
 #include "tests/unit/files/failing_files.hpp"
-#include "tests/unit/journal/journal_samples.hpp"
+#include "tests/unit/journal/segment_fixture.hpp"
 
 using namespace a351::files;
 
@@ -16,23 +15,20 @@ namespace {
 
 using test::clock_reading;
 
-std::string text_of(const RxChunk& rx) {
-    return {reinterpret_cast<const char*>(rx.bytes.data()), rx.bytes.size()};
-}
-
 /// Returns all received bytes of a journal directory, in the order of reading.
 std::string received_in(const std::filesystem::path& directory) {
     std::string text;
     Sequence chunks(segment_files(directory));
     while (const auto chunk = chunks.next()) {
-        if (const auto* rx = std::get_if<RxChunk>(&*chunk)) text += text_of(*rx);
+        if (const auto* rx = std::get_if<RxChunk>(&*chunk))
+            text.append(reinterpret_cast<const char*>(rx->bytes.data()), rx->bytes.size());
     }
     return text;
 }
 
 }  // namespace
 
-TEST_CASE("appended chunks are read back in order", "[record][journal]") {
+TEST_CASE("appended chunks are read back in order") {
     const test::TemporaryDirectory directory;
     Writer writer(posix_files(), directory.path() / "journal");
     writer.begin_segment(test::journal_header());
@@ -44,18 +40,13 @@ TEST_CASE("appended chunks are read back in order", "[record][journal]") {
     const auto segments = segment_files(directory.path() / "journal");
     REQUIRE(segments.size() == 1);
     CHECK(segments[0].filename() == "00000001_20260301T130000Z.a351j");
-    Reader reader(segments[0]);
-    for (const auto& chunk : test::one_of_each()) {
-        const auto read = reader.next();
-        REQUIRE(read);
-        CHECK(read->index() == chunk.index());
-    }
-    CHECK_FALSE(reader.next());
-    CHECK(reader.damage().empty());
+    const auto reading = read_all(segments[0]);
+    CHECK(reading.kinds == kinds_of(test::one_of_each()));
+    CHECK_FALSE(reading.damage);
     CHECK(writer.bytes_written() == std::filesystem::file_size(segments[0]));
 }
 
-TEST_CASE("a segment ends after one hour of raw time", "[record][journal]") {
+TEST_CASE("a segment ends after one hour of raw time") {
     const test::TemporaryDirectory directory;
     Writer writer(posix_files(), directory.path());
     writer.begin_segment(test::journal_header());  // Raw time 1000 s.
@@ -74,7 +65,7 @@ TEST_CASE("a segment ends after one hour of raw time", "[record][journal]") {
     CHECK(std::get<Header>(*header).clock == clock_reading(4600, "2026-03-01T14:00:00Z"));
 }
 
-TEST_CASE("a segment ends when it exceeds 64 MiB", "[record][journal]") {
+TEST_CASE("a segment ends when it exceeds 64 MiB") {
     const test::TemporaryDirectory directory;
     Writer writer(posix_files(), directory.path());
     writer.begin_segment(test::journal_header());
@@ -88,8 +79,7 @@ TEST_CASE("a segment ends when it exceeds 64 MiB", "[record][journal]") {
 }
 
 TEST_CASE(
-    "the segment counter continues over restarts and compressed segments, even if time goes back",
-    "[record][journal]") {
+    "the segment counter continues over restarts and compressed segments, even if time goes back") {
     const test::TemporaryDirectory directory;
     test::write_bytes(directory.path() / "00000416_20270301T120000Z.a351j.zst", {});
     Writer writer(posix_files(), directory.path());
@@ -104,8 +94,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "whichever file operation fails, once or twice, every chunk is read back once and in order",
-    "[record][journal]") {
+    "whichever file operation fails, once or twice, every chunk is read back once and in order") {
     int operations = 0;
     for (int again = 0; again < 6; ++again) {
         for (int fail_at = 1; fail_at == 1 || fail_at <= operations; ++fail_at) {
@@ -154,8 +143,7 @@ TEST_CASE(
 
 TEST_CASE(
     "chunks lost by a failed sync are written again, and the new segment says which may be "
-    "repeated",
-    "[record][journal]") {
+    "repeated") {
     const auto clock = clock_reading(1001, "2026-03-01T13:00:01Z");
     const auto rx = [](char c) { return test::rx_chunk({&c, 1}, "."); };
     for (const int kept : {0, 1, 2, 3}) {

@@ -20,25 +20,40 @@ inline void append(Bytes& bytes, const Bytes& more) {
 }
 
 /// Returns a segment of the given chunks, numbered from 0.
-inline Bytes segment_of(const std::vector<Chunk>& chunks) {
+/// @param ends  receives the end of the preamble and of each chunk
+inline Bytes segment_of(const std::vector<Chunk>& chunks,
+                        std::vector<std::size_t>* ends = nullptr) {
     auto bytes = encode_preamble();
+    if (ends != nullptr) *ends = {bytes.size()};
     std::uint32_t sequence = 0;
-    for (const auto& chunk : chunks) append(bytes, encode_chunk(chunk, sequence++));
+    for (const auto& chunk : chunks) {
+        append(bytes, encode_chunk(chunk, sequence++));
+        if (ends != nullptr) ends->push_back(bytes.size());
+    }
     return bytes;
+}
+
+/// Returns the kinds of chunks, as indices of the variant.
+inline std::vector<std::size_t> kinds_of(const std::vector<Chunk>& chunks) {
+    std::vector<std::size_t> kinds;
+    for (const auto& chunk : chunks) kinds.push_back(chunk.index());
+    return kinds;
 }
 
 struct Reading {
     std::size_t chunk_count = 0;
     std::optional<Damage> damage;  ///< The newest.
     std::vector<std::uint32_t> sequences;
+    std::vector<std::size_t> kinds;
 };
 
 inline Reading read_all(const std::filesystem::path& file) {
     Reader reader(file);
     Reading reading;
-    while (reader.next()) {
+    while (const auto chunk = reader.next()) {
         ++reading.chunk_count;
         reading.sequences.push_back(reader.sequence());
+        reading.kinds.push_back(chunk->index());
     }
     CHECK_FALSE(reader.next());
     if (!reader.damage().empty()) reading.damage = reader.damage().back();
@@ -55,7 +70,8 @@ public:
 protected:
     test::TemporaryDirectory directory_;
     std::filesystem::path file_ = directory_.path() / "00000001_20260301T130000Z.a351j";
-    Bytes whole_ = segment_of(test::one_of_each());
+    std::vector<std::size_t> ends_;  ///< Of the preamble and the chunks.
+    Bytes whole_ = segment_of(test::one_of_each(), &ends_);
 };
 
 }  // namespace a351::journal
