@@ -39,6 +39,11 @@ public:
         writer_.append(channel, record);
     }
 
+    /// Writes records without a gap, with the samples 0, 1, 2 ...
+    void add_some(int records, std::optional<double> rate_hz = std::nullopt) {
+        for (int i = 0; i < records; ++i) add(kBegin + i * 100 * kStep, i * 100, "BNZ", rate_hz);
+    }
+
     [[nodiscard]] ChannelData read(UtcTime from = kBegin - 48h, UtcTime to = kBegin + 48h) const {
         return read_channel(directory_.path(), StationCodes{}, "BNZ", from, to);
     }
@@ -56,30 +61,12 @@ private:
 
 }  // namespace
 
-TEST_CASE("records of another station in a day file are damage, and are named as such",
-          "[record][archive_reader]") {
-    Archive archive;
-    for (int i = 0; i < 3; ++i) archive.add(kBegin + i * 100 * kStep, i * 100);
-    auto bytes = test::read_bytes(archive.day_file());
-    bytes[kRecordSize + 8] = std::byte{'B'};  // station code: A351 becomes B351
-    test::write_bytes(archive.day_file(), bytes);
-    const auto data = archive.read();
-    REQUIRE(data.segments.size() == 2);
-    CHECK(data.segments[0].counts.size() == 100);
-    REQUIRE(data.damage.size() == 1);
-    CHECK(data.damage[0].offset == kRecordSize);
-    CHECK(
-        to_text(data.damage[0]).ends_with("offset 512: 512 bytes are a record of another station"));
-}
-
 TEST_CASE(
-    "a day file longer than a piece is read like a short one, with damage at the end of a piece",
-    "[record][archive_reader]") {
+    "a day file longer than a piece is read like a short one, with damage at the end of a piece") {
     constexpr std::size_t kPiece = 1U << 16U;
     constexpr std::size_t kRecords = kPiece / kRecordSize + 40;
     Archive archive;
-    for (std::size_t i = 0; i < kRecords; ++i)
-        archive.add(kBegin + static_cast<int>(i) * 100 * kStep, static_cast<int>(i) * 100);
+    archive.add_some(static_cast<int>(kRecords));
     const auto whole = test::read_bytes(archive.day_file());
     for (const std::size_t before : {0U, 1U, 7U, 511U}) {   // bytes before the first record
         for (const std::size_t within : {0U, 5U, 1030U}) {  // and after the last one of the piece
@@ -106,12 +93,10 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("a rate in headers that contradicts the metadata: the starts of the records decide",
-          "[record][archive_reader]") {
+TEST_CASE("a rate in headers that contradicts the metadata: the starts of the records decide") {
     const auto read = [](double header_hz, double metadata_hz) {
         Archive archive;  // its samples are 1/50 s apart
-        for (int i = 0; i < 3; ++i)
-            archive.add(kBegin + i * 100 * kStep, i * 100, "BNZ", header_hz);
+        archive.add_some(3, header_hz);
         return read_channel(archive.path(), StationCodes{}, "BNZ", kBegin - 48h, kBegin + 48h,
                             metadata_hz);
     };
@@ -132,7 +117,7 @@ TEST_CASE("a rate in headers that contradicts the metadata: the starts of the re
 
     // Records of another rate that is right do not decide about the wrong ones.
     Archive archive;
-    for (int i = 0; i < 3; ++i) archive.add(kBegin + i * 100 * kStep, i * 100, "BNZ", 49.0);
+    archive.add_some(3, 49.0);
     for (int i = 0; i < 9; ++i) archive.add(kBegin + 1h + i * 100 * kStep, i * 100, "BNZ", 50.001);
     const auto both =
         read_channel(archive.path(), StationCodes{}, "BNZ", kBegin - 48h, kBegin + 48h, 50.0);
@@ -141,8 +126,7 @@ TEST_CASE("a rate in headers that contradicts the metadata: the starts of the re
     CHECK(both.segments[1].rate_hz == Approx(50.001));
 }
 
-TEST_CASE("a day file that one channel lacks is named, once the day is longer than a record",
-          "[record][archive_reader]") {
+TEST_CASE("a day file that one channel lacks is named, once the day is longer than a record") {
     Archive archive;
     const auto absent = [&] {
         std::string text;
@@ -164,25 +148,9 @@ TEST_CASE("a day file that one channel lacks is named, once the day is longer th
     CHECK(absent() == "BNZ 2026-02-28; BN1 2026-03-01.gz; ");
 }
 
-TEST_CASE("records without a gap between them form one segment", "[record][archive_reader]") {
+TEST_CASE("records that a merged copy has twice count once") {
     Archive archive;
-    for (int i = 0; i < 5; ++i) archive.add(kBegin + i * 100 * kStep, i * 100);
-    const auto data = archive.read();
-    CHECK(data.damage.empty());
-    REQUIRE(data.segments.size() == 1);
-    const auto& segment = data.segments[0];
-    REQUIRE(segment.counts.size() == 500);
-    CHECK(segment.rate_hz == 50.0);
-    CHECK(segment.anchors.size() == 5);
-    for (int i = 0; i < 500; ++i) {
-        CHECK(segment.counts[std::size_t(i)] == i);
-        CHECK(segment.time_of(std::size_t(i)) == kBegin + i * kStep);
-    }
-}
-
-TEST_CASE("records that a merged copy has twice count once", "[record][archive_reader]") {
-    Archive archive;
-    for (int i = 0; i < 5; ++i) archive.add(kBegin + i * 100 * kStep, i * 100);
+    archive.add_some(5);
     archive.add(kBegin, 7);  // other samples at a known time: the clock was set back
     const auto once = test::read_bytes(archive.day_file());
     auto twice = once;
@@ -197,8 +165,7 @@ TEST_CASE("records that a merged copy has twice count once", "[record][archive_r
     CHECK(data.segments[1].counts.size() == 100);
 }
 
-TEST_CASE("a record that begins in second 60 is read before midnight only",
-          "[record][archive_reader]") {
+TEST_CASE("a record that begins in second 60 is read before midnight only") {
     const bool is_leap_second = GENERATE(true, false);
     constexpr std::size_t kSecondAt = 26;  // SEED 2.4, fixed section of the header
     Archive archive;
@@ -215,38 +182,42 @@ TEST_CASE("a record that begins in second 60 is read before midnight only",
         CHECK(data.segments[0].time_of(0) == *parse_rfc3339("2026-03-02T00:00:00Z"));
 }
 
-TEST_CASE("each record keeps its own start time", "[record][archive_reader]") {
-    Archive archive;
-    archive.add(kBegin, 0);
-    archive.add(kBegin + 100 * kStep + 3ms, 100);
-    const auto data = archive.read();
-    REQUIRE(data.segments.size() == 1);
-    CHECK(data.segments[0].time_of(99) == kBegin + 99 * kStep);
-    CHECK(data.segments[0].time_of(100) == kBegin + 100 * kStep + 3ms);
-    CHECK(data.segments[0].time_of(101) == kBegin + 101 * kStep + 3ms);
-}
-
-TEST_CASE("a gap or overlap of more than half a sample begins a new segment",
-          "[record][archive_reader]") {
+TEST_CASE("a gap or overlap of more than half a sample, or another rate, begins a new segment") {
     for (const auto& [shift, segments] :
-         {std::pair(10ms, 1U), std::pair(-10ms, 1U), std::pair(11ms, 2U), std::pair(-11ms, 2U)}) {
+         {std::pair(0ms, 1U), std::pair(3ms, 1U), std::pair(10ms, 1U), std::pair(-10ms, 1U),
+          std::pair(11ms, 2U), std::pair(-11ms, 2U)}) {
         Archive archive;
         archive.add(kBegin, 0);
         archive.add(kBegin + 100 * kStep + shift, 100);
-        CHECK(archive.read().segments.size() == segments);
+        const auto data = archive.read();
+        CHECK(data.damage.empty());
+        REQUIRE(data.segments.size() == segments);
+        if (segments > 1) continue;
+        const auto& segment = data.segments[0];
+        REQUIRE(segment.counts.size() == 200);
+        CHECK(segment.rate_hz == 50.0);
+        CHECK(segment.anchors.size() == 2);
+        for (int i = 0; i < 200; ++i) {  // Each record keeps its own start time.
+            CHECK(segment.counts[std::size_t(i)] == i);
+            CHECK(segment.time_of(std::size_t(i)) ==
+                  kBegin + i * kStep + (i < 100 ? Nanoseconds(0) : Nanoseconds(shift)));
+        }
     }
-}
-
-TEST_CASE("a change of the sampling rate begins a new segment", "[record][archive_reader]") {
-    Archive archive;
-    archive.add(kBegin, 0, "BNZ", 50.0);
-    archive.add(kBegin + 100 * kStep, 100, "BNZ", 50.0005);
-    const auto data = archive.read();
+    Archive faster;
+    faster.add(kBegin, 0, "BNZ", 50.0);
+    faster.add(kBegin + 100 * kStep, 100, "BNZ", 50.0005);
+    const auto data = faster.read();
     REQUIRE(data.segments.size() == 2);
     CHECK(data.segments[1].rate_hz == static_cast<double>(50.0005F));
+
+    Archive stepped_back;  // Segments are in time order.
+    stepped_back.add(kBegin, 0);
+    stepped_back.add(kBegin - 10s, 100);
+    REQUIRE(stepped_back.read().segments.size() == 2);
+    CHECK(stepped_back.read().segments[0].counts.front() == 100);
 }
 
-TEST_CASE("a segment continues across UTC midnight", "[record][archive_reader]") {
+TEST_CASE("a segment continues across UTC midnight") {
     Archive archive;
     const auto midnight = kBegin + 12h;
     archive.add(midnight - 100 * kStep, 0);
@@ -258,10 +229,9 @@ TEST_CASE("a segment continues across UTC midnight", "[record][archive_reader]")
 }
 
 TEST_CASE(
-    "a read returns the samples from the start of the interval up to, but not including, its end",
-    "[record][archive_reader]") {
+    "a read returns the samples from the start of the interval up to, but not including, its end") {
     Archive archive;
-    for (int i = 0; i < 3; ++i) archive.add(kBegin + i * 100 * kStep, i * 100);
+    archive.add_some(3);
     const auto data = archive.read(kBegin + 150 * kStep, kBegin + 250 * kStep);
     REQUIRE(data.segments.size() == 1);
     CHECK(data.segments[0].counts.front() == 150);
@@ -272,8 +242,7 @@ TEST_CASE(
     CHECK(archive.read(kBegin, kBegin).segments.empty());
 }
 
-TEST_CASE("a missing day, channel or archive gives no samples and no error",
-          "[record][archive_reader]") {
+TEST_CASE("a missing day, channel or archive gives no samples and no error") {
     Archive archive;
     CHECK(archive.read().segments.empty());
     archive.add(kBegin, 0, "BN1");
@@ -282,50 +251,48 @@ TEST_CASE("a missing day, channel or archive gives no samples and no error",
     CHECK(archive.read(UtcTime::min(), UtcTime::max()).segments.empty());
 }
 
-TEST_CASE("damage within a day file costs only the damaged records and is reported",
-          "[record][archive_reader]") {
-    Archive archive;
-    for (int i = 0; i < 4; ++i) archive.add(kBegin + i * 100 * kStep, i * 100);
-    auto bytes = test::read_bytes(archive.day_file());
-    SECTION("a record is overwritten") {
-        std::fill_n(bytes.begin() + 512, 512, std::byte{0});
+TEST_CASE("damage within a day file costs only the damaged records and is reported") {
+    using Bytes = std::vector<std::byte>;
+    using Sizes = std::vector<std::size_t>;
+    struct Case {
+        const char* reason;
+        void (*damage)(Bytes&);
+        Sizes segments;
+        std::uint64_t offset, byte_count;
+    };
+    for (const auto& [reason, damage, segments, offset, byte_count] : {
+             Case{"",
+                  [](Bytes& bytes) { std::fill_n(bytes.begin() + 512, 512, std::byte{0}); },
+                  {100, 200},
+                  512,
+                  512},
+             Case{"",
+                  [](Bytes& bytes) { bytes.insert(bytes.begin() + 1024, 200, std::byte{0xAA}); },
+                  {400},
+                  1024,
+                  200},
+             Case{"", [](Bytes& bytes) { bytes.pop_back(); }, {300}, 1536, 511},
+             Case{"offset 512: 512 bytes are a record of another station",
+                  [](Bytes& bytes) { bytes[kRecordSize + 8] = std::byte{'B'}; },  // B351
+                  {100, 200},
+                  512,
+                  512},
+         }) {
+        Archive archive;
+        archive.add_some(4);
+        auto bytes = test::read_bytes(archive.day_file());
+        damage(bytes);
         test::write_bytes(archive.day_file(), bytes);
         const auto data = archive.read();
-        REQUIRE(data.segments.size() == 2);
-        CHECK(data.segments[0].counts.size() == 100);
-        CHECK(data.segments[1].counts.front() == 200);
+        Sizes sizes;
+        for (const Segment& segment : data.segments) sizes.push_back(segment.counts.size());
+        CHECK(sizes == segments);
+        CHECK(data.segments.back().counts.back() == (byte_count == 511 ? 299 : 399));
         REQUIRE(data.damage.size() == 1);
-        CHECK(data.damage[0].offset == 512);
-        CHECK(data.damage[0].byte_count == 512);
+        CHECK(data.damage[0].offset == offset);
+        CHECK(data.damage[0].byte_count == byte_count);
+        CHECK_THAT(to_text(data.damage[0]), EndsWith(reason));
     }
-    SECTION("inserted bytes shift the records after them") {
-        bytes.insert(bytes.begin() + 1024, 200, std::byte{0xAA});
-        test::write_bytes(archive.day_file(), bytes);
-        const auto data = archive.read();
-        REQUIRE(data.segments.size() == 1);
-        CHECK(data.segments[0].counts.size() == 400);
-        REQUIRE(data.damage.size() == 1);
-        CHECK(data.damage[0].offset == 1024);
-        CHECK(data.damage[0].byte_count == 200);
-    }
-    SECTION("the tail is torn") {
-        bytes.resize(bytes.size() - 1);
-        test::write_bytes(archive.day_file(), bytes);
-        const auto data = archive.read();
-        CHECK(data.segments[0].counts.size() == 300);
-        REQUIRE(data.damage.size() == 1);
-        CHECK(data.damage[0].offset == 1536);
-        CHECK(data.damage[0].byte_count == 511);
-    }
-}
-
-TEST_CASE("segments are in time order even if the clock stepped back", "[record][archive_reader]") {
-    Archive archive;
-    archive.add(kBegin, 0);
-    archive.add(kBegin - 10s, 100);
-    const auto data = archive.read();
-    REQUIRE(data.segments.size() == 2);
-    CHECK(data.segments[0].counts.front() == 100);
 }
 
 }  // namespace a351::archive

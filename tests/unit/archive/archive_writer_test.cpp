@@ -29,10 +29,21 @@ std::vector<int> sequences(const DataRoot& root) {
     return all;
 }
 
+/// A record of z that starts this long after kStart, and its last index.
+struct Written {
+    Nanoseconds start{0};
+    std::vector<std::int32_t> samples;
+    std::int64_t last = 0;
+};
+
+void write(archive::Writer& writer, const std::vector<Written>& records) {
+    for (const auto& [start, samples, last] : records)
+        writer.record("BNZ", record_at(kStart + start, samples), last);
+}
+
 }  // namespace
 
-TEST_CASE("record numbers of a channel continue across day files and restarts",
-          "[record][archive_writer]") {
+TEST_CASE("record numbers of a channel continue across day files and restarts") {
     DataRoot root;
     for (int run = 0; run < 3; ++run) {
         archive::Writer writer(posix_files(), root.archive(), {});
@@ -45,8 +56,7 @@ TEST_CASE("record numbers of a channel continue across day files and restarts",
     CHECK(sequences(root) == std::vector{1, 2, 3, 4, 5, 6});
 }
 
-TEST_CASE("record numbers continue after a clock was set back over midnight and a restart",
-          "[record][archive_writer]") {
+TEST_CASE("record numbers continue after a clock was set back over midnight and a restart") {
     DataRoot root;
     const UtcTime today(std::chrono::ceil<std::chrono::days>(kStart.time_since_epoch()));
     const auto record = [&root](std::vector<UtcTime> starts) {
@@ -58,7 +68,7 @@ TEST_CASE("record numbers continue after a clock was set back over midnight and 
     CHECK(sequences(root) == std::vector{1, 3, 4, 2, 5});
 }
 
-TEST_CASE("the record number after 999999 is 1", "[record][archive_writer]") {
+TEST_CASE("the record number after 999999 is 1") {
     DataRoot root;
     RecordHeader header = decode_record(record_at(kStart, {1}).bytes)->header;
     header.sequence = 999'998;
@@ -70,8 +80,7 @@ TEST_CASE("the record number after 999999 is 1", "[record][archive_writer]") {
     CHECK(sequences(root) == std::vector{999'998, 999'999, 1});
 }
 
-TEST_CASE("sync returns the last sample of each channel that is safe on disk",
-          "[record][archive_writer]") {
+TEST_CASE("sync returns the last sample of each channel that is safe on disk") {
     DataRoot root;
     archive::Writer writer(posix_files(), root.archive(), {});
     CHECK(writer.sync().empty());
@@ -83,7 +92,7 @@ TEST_CASE("sync returns the last sample of each channel that is safe on disk",
     CHECK(marks[0].utc == kStart + 40ms);
 }
 
-TEST_CASE("a replayed record that the archive already has is skipped", "[record][archive_writer]") {
+TEST_CASE("a replayed record that the archive already has is skipped") {
     DataRoot root;
     const auto held = record_at(kStart, {1, 2, 3});
     const auto next = record_at(kStart + 60ms, {4, 5});
@@ -105,8 +114,7 @@ TEST_CASE("a replayed record that the archive already has is skipped", "[record]
 }
 
 TEST_CASE(
-    "a replayed record that contradicts or overlaps the archive is a conflict and is not written",
-    "[record][archive_writer]") {
+    "a replayed record that contradicts or overlaps the archive is a conflict and is not written") {
     DataRoot root;
     archive::Writer(posix_files(), root.archive(), {})
         .record("BNZ", record_at(kStart, {1, 2, 3}), 2);
@@ -129,100 +137,79 @@ TEST_CASE(
     CHECK(writer.records_written() == 1);
 }
 
-TEST_CASE("a replay writes records into the time of an older session, when a clock was set back",
-          "[record][archive_writer]") {
+TEST_CASE("a replay writes what the archive lacks, in whatever order a set-back clock put it") {
+    struct Case {
+        const char* name;
+        std::vector<Written> archived, replayed;
+        std::uint64_t skipped;
+        std::int64_t safe;  ///< Last index that is reported as safe; one record is written.
+    };
+    const Written older{0ms, {1, 2, 3}, 2};
+    const Written first{-60ms, {11, 12}, 1}, second{-20ms, {13}, 2};
+    const Nanoseconds midnight = std::chrono::ceil<std::chrono::days>(kStart) - kStart;
+    const Written after_midnight{midnight + 1s, {11, 12}, 1};
+    const Written behind_hole{120ms, {7, 8}, 7}, set_back{60ms, {9, 10}, 9};
+    for (const auto& [name, archived, replayed, skipped, safe] : {
+             Case{"into the time of an older session",
+                  {older, first, second},
+                  {first, second, {0ms, {14, 15}, 4}},
+                  2,
+                  4},
+             Case{"into that of an older session before midnight",
+                  {{midnight - 1s, {1, 2, 3}, 2}, after_midnight},
+                  {after_midnight, {midnight - 980ms, {13, 14}, 3}},
+                  1,
+                  3},
+             Case{"into a hole that a failed sync left, whose time was repeated",
+                  {older, behind_hole, set_back},
+                  {older, {60ms, {4, 5, 6}, 5}, behind_hole, set_back},
+                  3,
+                  9},
+             Case{"behind the archived times, with earlier ones after it",
+                  {older, {-60ms, {7, 8}, 7}},
+                  {older, {60ms, {4, 5, 6}, 5}, {-60ms, {7, 8}, 7}},
+                  2,
+                  7},
+         }) {
+        CAPTURE(name);
+        DataRoot root;
+        {
+            archive::Writer writer(posix_files(), root.archive(), {});
+            write(writer, archived);
+        }
+        archive::Writer writer(posix_files(), root.archive(), {});
+        writer.begin_replay();
+        write(writer, replayed);
+        writer.settle();
+        CHECK(writer.records_written() == 1);
+        CHECK(writer.records_skipped() == skipped);
+        CHECK(writer.replay_conflicts() == 0);
+        CHECK(writer.sync().at(0).index == safe);
+    }
+}
+
+TEST_CASE("a record that may be in the archive is written when the next match decides") {
+    const Written held{0ms, {1, 2, 3}, 2};
     DataRoot root;
     {
         archive::Writer writer(posix_files(), root.archive(), {});
-        writer.record("BNZ", record_at(kStart, {1, 2, 3}), 2);  // This record belongs to an older session.
-        writer.record("BNZ", record_at(kStart - 60ms, {11, 12}), 1);
-        writer.record("BNZ", record_at(kStart - 20ms, {13}), 2);
+        write(writer, {held, {120ms, {7, 8}, 7}, {60ms, {9, 10}, 9}});
     }
     archive::Writer writer(posix_files(), root.archive(), {});
     writer.begin_replay();
-    writer.record("BNZ", record_at(kStart - 60ms, {11, 12}), 1);
-    writer.record("BNZ", record_at(kStart - 20ms, {13}), 2);
-    writer.record("BNZ", record_at(kStart, {14, 15}), 4);
-    writer.settle();
-    CHECK(writer.records_skipped() == 2);
-    CHECK(writer.replay_conflicts() == 0);
+    write(writer, {held, {60ms, {4, 5, 6}, 5}});
+    CHECK(writer.records_written() == 0);
+    write(writer, {{120ms, {7, 8}, 7}});
     CHECK(writer.records_written() == 1);
-    CHECK(writer.sync().at(0).index == 4);
-}
 
-TEST_CASE("a replay writes records into the time of an older session beyond a midnight",
-          "[record][archive_writer]") {
-    DataRoot root;
-    const UtcTime midnight = std::chrono::ceil<std::chrono::days>(kStart);
-    const auto after_midnight = record_at(midnight + 1s, {11, 12});
-    {
-        archive::Writer writer(posix_files(), root.archive(), {});
-        writer.record("BNZ", record_at(midnight - 1s, {1, 2, 3}), 2);  // It is of an older session.
-        writer.record("BNZ", after_midnight, 1);
-    }
-    archive::Writer writer(posix_files(), root.archive(), {});
-    writer.begin_replay();
-    writer.record("BNZ", after_midnight, 1);
-    writer.record("BNZ", record_at(midnight - 1s + 20ms, {13, 14}), 3);  // The clock was set back.
-    writer.settle();
-    CHECK(writer.replay_conflicts() == 0);
-    CHECK(writer.records_written() == 1);
-    CHECK(writer.sync().at(0).index == 3);
-}
-
-TEST_CASE("a replay fills a hole before records that a set-back clock put into its time",
-          "[record][archive_writer]") {
-    DataRoot root;
-    {
-        archive::Writer writer(posix_files(), root.archive(), {});
-        writer.record("BNZ", record_at(kStart, {1, 2, 3}), 2);
-        // A failed sync lost the record that followed.
-        writer.record("BNZ", record_at(kStart + 120ms, {7, 8}), 7);
-        writer.record("BNZ", record_at(kStart + 60ms, {9, 10}), 9);  // The clock was set back.
-    }
-    archive::Writer writer(posix_files(), root.archive(), {});
-    writer.begin_replay();
-    writer.record("BNZ", record_at(kStart, {1, 2, 3}), 2);
-    writer.record("BNZ", record_at(kStart + 60ms, {4, 5, 6}), 5);
-    CHECK(writer.records_written() == 0);  // The next match decides.
-    writer.record("BNZ", record_at(kStart + 120ms, {7, 8}), 7);
-    CHECK(writer.records_written() == 1);
-    writer.record("BNZ", record_at(kStart + 60ms, {9, 10}), 9);
-    CHECK(writer.records_skipped() == 3);
-    CHECK(writer.replay_conflicts() == 0);
-    CHECK(writer.sync().at(0).index == 9);
-}
-
-TEST_CASE("a replay beyond the archived times still knows the records that a set-back clock wrote",
-          "[record][archive_writer]") {
-    DataRoot root;
-    const auto first = record_at(kStart, {1, 2, 3});
-    const auto third = record_at(kStart - 60ms, {7, 8});
-    {
-        archive::Writer writer(posix_files(), root.archive(), {});
-        writer.record("BNZ", first, 2);  // The record that followed was dropped.
-        writer.record("BNZ", third, 7);
-    }
-    archive::Writer writer(posix_files(), root.archive(), {});
-    writer.begin_replay();
-    writer.record("BNZ", first, 2);
-    writer.record("BNZ", record_at(kStart + 60ms, {4, 5, 6}), 5);
-    writer.record("BNZ", third, 7);
-    writer.settle();
-    CHECK(writer.records_written() == 1);
-    CHECK(writer.records_skipped() == 2);
-}
-
-TEST_CASE("a record of the last session that is written late is not reported for the next",
-          "[record][archive_writer]") {
-    DataRoot root;
-    archive::Writer(posix_files(), root.archive(), {})
+    DataRoot other;  // A record of the last session is not reported for the next.
+    archive::Writer(posix_files(), other.archive(), {})
         .record("BNZ", record_at(kStart, {1, 2, 3}), 2);
-    archive::Writer writer(posix_files(), root.archive(), {});
-    writer.begin_replay();
-    writer.record("BNZ", record_at(kStart + 40ms, {9}), 900);
-    writer.begin_session();
-    writer.record("BNZ", record_at(kStart, {1, 2, 3}), 2);  // It shows that nothing is in the place.
-    CHECK(writer.records_written() == 1);
-    CHECK(writer.sync().at(0).index == 2);
+    archive::Writer next(posix_files(), other.archive(), {});
+    next.begin_replay();
+    write(next, {{40ms, {9}, 900}});
+    next.begin_session();
+    write(next, {held});  // It shows that nothing is in the place.
+    CHECK(next.records_written() == 1);
+    CHECK(next.sync().at(0).index == 2);
 }

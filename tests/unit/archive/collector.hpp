@@ -51,6 +51,12 @@ inline std::vector<journal::Chunk> with_record_age(std::vector<journal::Chunk> c
     return chunks;
 }
 
+inline std::vector<journal::Chunk> joined(std::vector<journal::Chunk> chunks,
+                                          const std::vector<journal::Chunk>& more) {
+    chunks.insert(chunks.end(), more.begin(), more.end());
+    return chunks;
+}
+
 struct Run {
     Collector sink;
     Counters counters;

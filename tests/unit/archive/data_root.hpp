@@ -16,6 +16,30 @@
 
 namespace a351::archive {
 
+/// Returns the records of a channel in the order of its files; empty if one is damaged.
+inline std::vector<DecodedRecord> records_in(const std::filesystem::path& archive,
+                                             const std::string& channel,
+                                             const journal::StationCodes& codes = {}) {
+    std::vector<DecodedRecord> all;
+    for (const auto& file : day_files(archive, codes, channel)) {
+        const auto bytes = test::read_bytes(file);
+        for (std::size_t at = 0; at < bytes.size(); at += kRecordSize) {
+            const auto size = std::min(kRecordSize, bytes.size() - at);
+            auto record = decode_record(std::span(bytes).subspan(at, size));
+            if (!record) return {};
+            all.push_back(std::move(*record));
+        }
+    }
+    return all;
+}
+
+inline std::vector<std::int32_t> samples_of(const std::vector<DecodedRecord>& records) {
+    std::vector<std::int32_t> all;
+    for (const auto& record : records)
+        all.insert(all.end(), record.samples.begin(), record.samples.end());
+    return all;
+}
+
 class DataRoot {
 public:
     [[nodiscard]] const std::filesystem::path& path() const noexcept { return directory_.path(); }
@@ -53,28 +77,13 @@ public:
         return content;
     }
 
-    /// Returns the samples of a channel in the order of its files; empty if a record is damaged.
-    [[nodiscard]] std::vector<std::int32_t> counts(const std::string& channel,
-                                                   const journal::StationCodes& codes = {}) const {
-        std::vector<std::int32_t> all;
-        for (const auto& record : records(channel, codes))
-            all.insert(all.end(), record.samples.begin(), record.samples.end());
-        return all;
-    }
-
     [[nodiscard]] std::vector<DecodedRecord> records(
         const std::string& channel, const journal::StationCodes& codes = {}) const {
-        std::vector<DecodedRecord> all;
-        for (const auto& file : day_files(archive(), codes, channel)) {
-            const auto bytes = test::read_bytes(file);
-            for (std::size_t at = 0; at < bytes.size(); at += kRecordSize) {
-                const auto size = std::min(kRecordSize, bytes.size() - at);
-                auto record = decode_record(std::span(bytes).subspan(at, size));
-                if (!record) return {};
-                all.push_back(std::move(*record));
-            }
-        }
-        return all;
+        return records_in(archive(), channel, codes);
+    }
+    [[nodiscard]] std::vector<std::int32_t> counts(const std::string& channel,
+                                                   const journal::StationCodes& codes = {}) const {
+        return samples_of(records(channel, codes));
     }
 
 private:

@@ -59,13 +59,23 @@ UtcTime last_of(const ChannelData& data) {
     return last.time_of(last.counts.size() - 1);
 }
 
-ChannelData with_tail(const DataRoot& root, const std::string& channel,
-                      Nanoseconds longest_session = JournalTail::kLongestSession) {
-    ChannelData data = channel_of(root, channel);
-    const JournalTail tail(root.journal(), {}, data.segments.empty() ? kFrom : last_of(data), kTo,
-                           longest_session);
-    tail.append_to(data, channel, kFrom, kTo);
-    return data;
+/// Returns channels with the journal's tail, which is read once for all, as in the corrector.
+std::vector<ChannelData> with_tails(const DataRoot& root, const std::vector<std::string>& channels,
+                                    Nanoseconds longest_session = JournalTail::kLongestSession) {
+    std::vector<ChannelData> all;
+    UtcTime from = kTo;
+    for (const std::string& channel : channels) {
+        all.push_back(channel_of(root, channel));
+        from = std::min(from, all.back().segments.empty() ? kFrom : last_of(all.back()));
+    }
+    const JournalTail tail(root.journal(), {}, from, kTo, longest_session);
+    for (std::size_t i = 0; i < channels.size(); ++i)
+        tail.append_to(all[i], channels[i], kFrom, kTo);
+    return all;
+}
+
+ChannelData with_tail(const DataRoot& root, const std::string& channel) {
+    return with_tails(root, {channel}).front();
 }
 
 std::vector<std::int32_t> counts_of(const ChannelData& data) {
@@ -88,8 +98,7 @@ double most_difference_ms(const ChannelData& one, const ChannelData& other) {
 
 }  // namespace
 
-TEST_CASE("the journal's tail has the samples that the archive lacks, at the archive's times",
-          "[tail]") {
+TEST_CASE("the journal's tail has the samples that the archive lacks, at the archive's times") {
     // From the begin of the session to the nanosecond, from the last quarter of an hour nearly so.
     const auto [longest_session, most_ms] =
         GENERATE(std::pair<Nanoseconds, double>{JournalTail::kLongestSession, 0.0},
@@ -102,11 +111,14 @@ TEST_CASE("the journal's tail has the samples that the archive lacks, at the arc
         root.write_journal(chunks);
         archive_part(root, chunks,
                      static_cast<std::size_t>(part * static_cast<double>(chunks.size())));
-        for (const char* const channel : {"BNZ", "BN1", "BK1"}) {
+        const std::vector<std::string> channels{"BNZ", "BN1", "BK1"};
+        const auto all = with_tails(root, channels, longest_session);
+        for (std::size_t i = 0; i < channels.size(); ++i) {
+            const auto& channel = channels[i];
             CAPTURE(channel, part);
             const ChannelData expected = channel_of(whole, channel);
             const std::size_t archived = counts_of(channel_of(root, channel)).size();
-            const ChannelData data = with_tail(root, channel, longest_session);
+            const ChannelData& data = all[i];
             REQUIRE(data.segments.size() == 2);  // no gap but the one of the stream
             REQUIRE(counts_of(data) == counts_of(expected));
             const double ms = most_difference_ms(data, expected);
@@ -116,14 +128,14 @@ TEST_CASE("the journal's tail has the samples that the archive lacks, at the arc
             const Segment::Anchor& wanted = expected.segments.back().anchors.back();
             CHECK(newest.is_time_questionable == wanted.is_time_questionable);
             CHECK(std::abs(newest.timing_quality_percent - wanted.timing_quality_percent) <= 20);
-            if (channel == std::string("BNZ"))
+            if (channel == "BNZ")
                 std::printf("%zu of %lld samples archived: the tail's times differ by %.3f ms\n",
                             archived, static_cast<long long>(kCount), ms);
         }
     }
 }
 
-TEST_CASE("the tail continues the times of an archive whose clock was 70 ms ahead", "[tail]") {
+TEST_CASE("the tail continues the times of an archive whose clock was 70 ms ahead") {
     const auto chunks = half_an_hour();
     const DataRoot whole, root;
     archive_all(whole, ahead(chunks, 70ms));
@@ -134,7 +146,7 @@ TEST_CASE("the tail continues the times of an archive whose clock was 70 ms ahea
     CHECK(most_difference_ms(data, channel_of(whole, "BNZ")) < 0.2);
 }
 
-TEST_CASE("a journal that was cut at any byte ends the tail there", "[tail]") {
+TEST_CASE("a journal that was cut at any byte ends the tail there") {
     const auto chunks = half_an_hour();
     const DataRoot root, cut;
     root.write_journal(chunks);
@@ -156,7 +168,7 @@ TEST_CASE("a journal that was cut at any byte ends the tail there", "[tail]") {
     }
 }
 
-TEST_CASE("a session that began after the archive's last record is in the tail", "[tail]") {
+TEST_CASE("a session that began after the archive's last record is in the tail") {
     JournalStream first(1), second(2, 100s);
     first.frames(0, 4'000);
     second.frames(6'000, 12'000);
@@ -172,24 +184,16 @@ TEST_CASE("a session that began after the archive's last record is in the tail",
     CHECK(std::chrono::abs(last_of(data) - (kStart + due(11'999))) < 100ms);
 }
 
-TEST_CASE("the newest clock reading of a journal is its end", "[tail]") {
+TEST_CASE("the end of a journal is its newest clock reading, also of a tail that reached it") {
     const DataRoot root;
     CHECK(!journal_end(root.journal()));
-    JournalStream stream;
-    stream.frames(0, 500);
-    root.write_journal(stream.chunks);
-    CHECK(journal_end(root.journal()) == kStart + due(499));
-}
-
-TEST_CASE("a tail knows the end of the journal as it read it, unless the journal continues",
-          "[tail]") {
-    const DataRoot root;
     root.write_journal(half_an_hour());
+    CHECK(journal_end(root.journal()) == kStart + due(kCount - 1) + 17ms);
     CHECK(JournalTail(root.journal(), {}, kFrom, kTo).end() == journal_end(root.journal()));
     CHECK(!JournalTail(root.journal(), {}, kFrom, kStart + 10min).end());
 }
 
-TEST_CASE("a host clock that was ahead at the start and set back does not end the tail", "[tail]") {
+TEST_CASE("a host clock that was ahead at the start and set back does not end the tail") {
     auto chunks = half_an_hour();
     const auto set_back = chunks.begin() + static_cast<std::ptrdiff_t>(chunks.size() / 10);
     std::ranges::copy(ahead({chunks.begin(), set_back}, 3h), chunks.begin());  // beyond kTo

@@ -45,24 +45,6 @@ std::vector<journal::Chunk> badly_timed_session(std::int64_t synchronised) {
     return stream.chunks;
 }
 
-struct Decoded {
-    std::vector<std::int32_t> counts;
-    std::vector<DecodedRecord> records;
-};
-
-Decoded read_vertical(const std::filesystem::path& archive) {
-    Decoded all;
-    for (const auto& day : day_files(archive, {}, "BNZ")) {
-        const auto bytes = test::read_bytes(day);
-        for (std::size_t at = 0; at < bytes.size(); at += kRecordSize) {
-            auto record = *decode_record(std::span(bytes).subspan(at, kRecordSize));
-            all.counts.insert(all.counts.end(), record.samples.begin(), record.samples.end());
-            all.records.push_back(std::move(record));
-        }
-    }
-    return all;
-}
-
 /// Returns the true time of sample k, whose frame is complete at due(k).
 UtcTime truth(std::int64_t k) {
     return kStart + due(k) - (63'875us + 430us + Nanoseconds(520'833));
@@ -70,8 +52,7 @@ UtcTime truth(std::int64_t k) {
 
 }  // namespace
 
-TEST_CASE("a re-timed archive has the same samples, with the times that the whole journal gives",
-          "[record][retime]") {
+TEST_CASE("a re-timed archive has the same samples, with the times that the whole journal gives") {
     DataRoot root;
     const auto chunks = badly_timed_session(15'000);
     root.write_journal(chunks);
@@ -90,11 +71,11 @@ TEST_CASE("a re-timed archive has the same samples, with the times that the whol
     CHECK(report.damage.empty());
     CHECK(report.unsynchronised_runs == 0);
 
-    const Decoded before = read_vertical(root.archive()), after = read_vertical(out / "archive");
-    CHECK(after.counts == before.counts);
-    CHECK(std::chrono::abs(before.records.front().header.start - truth(0) + 1h) < Nanoseconds(2ms));
+    const auto before = root.records("BNZ"), after = records_in(out / "archive", "BNZ");
+    CHECK(samples_of(after) == samples_of(before));
+    CHECK(std::chrono::abs(before.front().header.start - truth(0) + 1h) < Nanoseconds(2ms));
     std::int64_t k = 0;
-    for (const DecodedRecord& record : after.records) {
+    for (const DecodedRecord& record : after) {
         if (k == 4'000) k = 4'003;
         const Nanoseconds error = record.header.start - truth(k);
         REQUIRE(std::chrono::abs(error) < Nanoseconds(500us));
@@ -108,32 +89,27 @@ TEST_CASE("a re-timed archive has the same samples, with the times that the whol
     CHECK(events[0].index == 500);
 }
 
-TEST_CASE("re-timing counts the runs whose times nothing corrects", "[record][retime]") {
-    DataRoot root, parent;
-    root.write_journal(badly_timed_session(30'000));
-    CHECK(retime(posix_files(), root.path(), parent.path() / "same").unsynchronised_runs == 1);
-}
-
-TEST_CASE("re-timing writes a complete archive or nothing", "[record][retime]") {
+TEST_CASE("re-timing writes a complete archive or nothing, and counts runs that nothing corrects") {
     DataRoot root, parent;
     const auto out = parent.path() / "better";
     CHECK_THROWS_AS(retime(posix_files(), root.path(), out), InputError);
     CHECK_FALSE(std::filesystem::exists(out));
-    root.write_journal(badly_timed_session(0));
+    root.write_journal(badly_timed_session(30'000));  // It is never synchronised.
     CHECK_THROWS_AS(retime(posix_files(), root.path(), root.path()), InputError);
     for (int n = 1; n < 12; ++n) {
         test::FailingFiles files(n);
         CHECK_THROWS_AS(retime(files, root.path(), out), std::system_error);
         CHECK(std::filesystem::is_empty(parent.path()));
     }
-    CHECK(retime(posix_files(), root.path(), out).records > 0);
+    const RetimeReport report = retime(posix_files(), root.path(), out);
+    CHECK(report.records > 0);
+    CHECK(report.unsynchronised_runs == 1);  // Nothing corrects its times.
     CHECK(retime(posix_files(), root.path(), parent.path() / "again/").records > 0);
-    const auto first = read_vertical(out / "archive");
-    CHECK(first.counts == read_vertical(parent.path() / "again" / "archive").counts);
+    CHECK(samples_of(records_in(out / "archive", "BNZ")) ==
+          samples_of(records_in(parent.path() / "again" / "archive", "BNZ")));
 }
 
-TEST_CASE("a damaged segment is re-timed without the lost chunks, which are reported",
-          "[record][retime]") {
+TEST_CASE("a damaged segment is re-timed without the lost chunks, which are reported") {
     DataRoot root, parent;
     root.write_journal(badly_timed_session(0));
     const auto segment = journal::segment_files(root.journal()).front();
@@ -164,15 +140,10 @@ TEST_CASE("a damaged segment is re-timed without the lost chunks, which are repo
 
 TEST_CASE(
     "records of a host without a clock stay in the journal until re-timing adds them to the "
-    "archive",
-    "[record][retime]") {
+    "archive") {
     // The host starts in 1970 and is synchronised after a minute.
     JournalStream stream;
-    for (std::int64_t k = 0; k < 9'000; ++k) {
-        stream.bytes(frame_of(values_of(k)), due(k));
-        if (k % 50 == 49) stream.second(due(k));
-    }
-    stream.flush();
+    stream.frames(0, 9'000);
     for (journal::Chunk& chunk : stream.chunks) {
         auto* reading = std::get_if<timing::ClockReading>(&chunk);
         if (auto* header = std::get_if<journal::Header>(&chunk)) reading = &header->clock;
@@ -191,13 +162,12 @@ TEST_CASE(
 
     test::TemporaryDirectory parent;
     static_cast<void>(retime(posix_files(), root.path(), parent.path() / "again"));
-    CHECK(read_vertical(parent.path() / "again" / "archive").counts.size() == 9'000);
+    CHECK(samples_of(records_in(parent.path() / "again" / "archive", "BNZ")).size() == 9'000);
 }
 
 TEST_CASE(
     "re-timed samples are right from the first one after a sleep of the host, however late the "
-    "clock reading comes that shows the sleep",
-    "[record][retime]") {
+    "clock reading comes that shows the sleep") {
     constexpr Nanoseconds kSlept = 40s;
     constexpr std::int64_t kAsleepFrom = 3'010, kAwakeFrom = 5'010;
     for (const Nanoseconds late : {Nanoseconds(-20ms), Nanoseconds(30ms), Nanoseconds(200ms)}) {
@@ -229,7 +199,7 @@ TEST_CASE(
         const auto out = parent.path() / "better";
         CHECK(retime(posix_files(), root.path(), out).counters.gaps == 1);
         std::int64_t k = 0;
-        for (const DecodedRecord& record : read_vertical(out / "archive").records) {
+        for (const DecodedRecord& record : records_in(out / "archive", "BNZ")) {
             if (k == kAsleepFrom) k = kAwakeFrom;
             REQUIRE(std::chrono::abs(record.header.start - truth(k)) < Nanoseconds(500us));
             k += static_cast<std::int64_t>(record.samples.size());

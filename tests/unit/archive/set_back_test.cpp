@@ -58,8 +58,7 @@ std::vector<std::int32_t> sorted(std::vector<std::int32_t> counts) {
 }  // namespace
 
 TEST_CASE(
-    "a session whose clock was set back is recovered completely and once, whenever it was killed",
-    "[record][archive_writer]") {
+    "a session whose clock was set back is recovered completely and once, whenever it was killed") {
     for (const Step& step :
          {Step{"a leap second", 1s, true},
           Step{"a leap second as a host sees it", 1'000'003us, true}, Step{"an hour", 1h, false}}) {

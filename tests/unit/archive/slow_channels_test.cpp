@@ -63,10 +63,20 @@ JournalStream stream_of(std::int64_t count, Nanoseconds second, std::optional<do
     return stream;
 }
 
+/// Returns a stream whose clock readings are changed from sample 5 000 on.
+JournalStream stream_with_clock(std::int64_t count, auto change) {
+    JournalStream stream;
+    stream.frames(0, count);
+    for (journal::Chunk& chunk : stream.chunks) {
+        auto* reading = std::get_if<timing::ClockReading>(&chunk);
+        if (reading != nullptr && reading->raw > kRawStart + due(5'000)) change(*reading);
+    }
+    return stream;
+}
+
 }  // namespace
 
-TEST_CASE("every complete second gets the mean temperature of its samples",
-          "[record][slow_channels]") {
+TEST_CASE("every complete second gets the mean temperature of its samples") {
     JournalStream stream;
     std::get<journal::Header>(stream.chunks.front()).declared_rate_hz = 50.0006;
     stream.frames(0, 10'000);
@@ -83,8 +93,7 @@ TEST_CASE("every complete second gets the mean temperature of its samples",
     CHECK(seconds_of(run.sink, "LCQ").size() == 199);
 }
 
-TEST_CASE("a second without samples is a gap, a second with some samples gets their mean",
-          "[record][slow_channels]") {
+TEST_CASE("a second without samples is a gap, a second with some samples gets their mean") {
     JournalStream stream;
     stream.frames(0, 1'000);
     stream.frames(1'110, 3'000);
@@ -101,8 +110,7 @@ TEST_CASE("a second without samples is a gap, a second with some samples gets th
     CHECK(missing == std::set<std::int64_t>{20, 21});
 }
 
-TEST_CASE("the values of the slow channels do not depend on where their records end",
-          "[record][slow_channels]") {
+TEST_CASE("the values of the slow channels do not depend on where their records end") {
     JournalStream stream;
     for (std::int64_t k = 0; k < 9'000; ++k) {
         stream.frame(k);
@@ -128,8 +136,7 @@ TEST_CASE("the values of the slow channels do not depend on where their records 
 
 TEST_CASE(
     "the clock error of each second is the error of its time reckoned from record start and header "
-    "rate",
-    "[record][slow_channels]") {
+    "rate") {
     // 20 ppm fast: a second of 50 samples lasts 20 us less.
     const bool is_declared = GENERATE(false, true);
     const auto rate_hz = is_declared ? std::optional(50.001) : std::nullopt;
@@ -150,16 +157,9 @@ TEST_CASE(
     CHECK(seen >= 597);
 }
 
-TEST_CASE("the clock quality of a second is that of its samples", "[record][slow_channels]") {
-    JournalStream stream;
-    for (std::int64_t k = 0; k < 10'000; ++k) {
-        stream.frame(k);
-        if (k % 50 != 49) continue;
-        stream.flush();
-        auto reading = clock_at(due(k));
-        if (k > 5'000) reading.max_error_us = 100'000;
-        stream.chunks.emplace_back(reading);
-    }
+TEST_CASE("the clock quality of a second is that of its samples") {
+    const auto stream =
+        stream_with_clock(10'000, [](auto& reading) { reading.max_error_us = 100'000; });
     const auto run = archived(stream.chunks);
     const auto qualities = seconds_of(run.sink, "LCQ");
     REQUIRE(qualities.size() == 199);
@@ -169,18 +169,9 @@ TEST_CASE("the clock quality of a second is that of its samples", "[record][slow
     CHECK(qualities[150].second == 60);
 }
 
-TEST_CASE("seconds in which the clock is set are missing, all others occur once",
-          "[record][slow_channels]") {
+TEST_CASE("seconds in which the clock is set are missing, all others occur once") {
     const Nanoseconds step = GENERATE(Nanoseconds(3'300ms), Nanoseconds(-7'700ms));
-    JournalStream stream;
-    for (std::int64_t k = 0; k < 12'000; ++k) {
-        stream.frame(k);
-        if (k % 50 != 49) continue;
-        stream.flush();
-        auto reading = clock_at(due(k));
-        if (k > 5'000) reading.realtime += step;
-        stream.chunks.emplace_back(reading);
-    }
+    const auto stream = stream_with_clock(12'000, [&](auto& reading) { reading.realtime += step; });
     const auto run = archived(stream.chunks);
     const auto means = seconds_of(run.sink, "LK1");
     std::vector<Nanoseconds> jumps;
@@ -197,7 +188,7 @@ TEST_CASE("seconds in which the clock is set are missing, all others occur once"
         REQUIRE(std::abs(means[i].second - means[i - 1].second) <= 8);
 }
 
-TEST_CASE("each value of the oven is stored at the nearest second", "[record][slow_channels]") {
+TEST_CASE("each value of the oven is stored at the nearest second") {
     JournalStream stream;
     for (std::int64_t k = 0; k < 3'000; ++k) {
         stream.frame(k);
@@ -229,7 +220,7 @@ TEST_CASE("each value of the oven is stored at the nearest second", "[record][sl
     CHECK(seconds_of(run.sink, "LYH") == heating);
 }
 
-TEST_CASE("the outer oven has channels and an interval of its own", "[record][slow_channels]") {
+TEST_CASE("the outer oven has channels and an interval of its own") {
     JournalStream stream;
     std::get<journal::Header>(stream.chunks.front()).outer_oven_interval = 5s;
     stream.frames(0, 500);
@@ -252,7 +243,7 @@ TEST_CASE("the outer oven has channels and an interval of its own", "[record][sl
     for (const auto& [second, counts] : inner) REQUIRE(counts == 42'500);
 }
 
-TEST_CASE("the oven is archived while the sensor is silent", "[record][slow_channels]") {
+TEST_CASE("the oven is archived while the sensor is silent") {
     JournalStream stream;
     stream.frames(0, 500);
     for (int n = 11; n <= 200; ++n) {
@@ -271,7 +262,7 @@ TEST_CASE("the oven is archived while the sensor is silent", "[record][slow_chan
     CHECK(seconds_of(sink, "LK2").size() == 190);
 }
 
-TEST_CASE("polls that fall halfway between two seconds are all stored", "[record][slow_channels]") {
+TEST_CASE("polls that fall halfway between two seconds are all stored") {
     // The polls are half a second off the grid, with a small jitter.
     const auto jitter = GENERATE(2ms, 8ms);
     constexpr int kPolls = 3'600;
@@ -297,8 +288,7 @@ TEST_CASE("polls that fall halfway between two seconds are all stored", "[record
 
 TEST_CASE(
     "no value of the oven is stored far from the time of its poll, and only failed polls leave a "
-    "gap",
-    "[record][slow_channels]") {
+    "gap") {
     const auto [interval, every, most] =
         GENERATE(table<std::chrono::seconds, Nanoseconds, Nanoseconds>(
             {{1s, 100ms, 600ms}, {1s, 900ms, 600ms}, {1s, 1s, 600ms}, {2s, 1200ms, 1s}}));
@@ -327,8 +317,7 @@ TEST_CASE(
     CHECK(std::chrono::abs(pauses.front() - (kFailed + 1) * every) <= interval + most);
 }
 
-TEST_CASE("an oven that is polled seldom has a channel with the rate of its polls",
-          "[record][slow_channels]") {
+TEST_CASE("an oven that is polled seldom has a channel with the rate of its polls") {
     const auto [interval, wanders] = GENERATE(std::pair(2s, 400ms), std::pair(7s, 900ms),
                                               std::pair(60s, 0ms), std::pair(3600s, 900ms));
     constexpr int kPolls = 150, kMissing = 99;
@@ -354,8 +343,7 @@ TEST_CASE("an oven that is polled seldom has a channel with the rate of its poll
     CHECK(run.sink.decoded.at("LK2").size() <= static_cast<std::size_t>(most));
 }
 
-TEST_CASE("a channel of the oven continues after a pause and with another polling interval",
-          "[record][slow_channels]") {
+TEST_CASE("a channel of the oven continues after a pause and with another polling interval") {
     JournalStream stream;
     std::get<journal::Header>(stream.chunks.front()).oven_interval = 10s;
     stream.frames(0, 500);
@@ -373,8 +361,7 @@ TEST_CASE("a channel of the oven continues after a pause and with another pollin
     CHECK(records == decltype(records){{20s, 3}, {65s, 2}, {83s, 2}});
 }
 
-TEST_CASE("a sensor without temperature has only the slow channels of the clock",
-          "[record][slow_channels]") {
+TEST_CASE("a sensor without temperature has only the slow channels of the clock") {
     const auto layout = *wire::BurstLayout::from_burst_ctrl(0x0103);  // z, COUNT, CHKSM
     JournalStream stream;
     std::get<journal::Header>(stream.chunks.front()).burst_ctrl = layout.burst_ctrl();

@@ -2,6 +2,7 @@
 /// @file
 /// A device and a host for tests: true samples -> frames -> journal chunks.
 
+#include <functional>
 #include <random>
 #include <utility>
 #include <vector>
@@ -65,10 +66,15 @@ public:
     void frame(std::int64_t k) { bytes(frame_of(values_of(k)), due(k)); }
 
     /// Adds frames in chunks of one second, each followed by a clock reading.
-    void frames(std::int64_t first, std::int64_t end) {
+    /// @param later   time by which all come later
+    /// @param change  changes the values of a frame before it is sent
+    void frames(std::int64_t first, std::int64_t end, Nanoseconds later = Nanoseconds(0),
+                const std::function<void(std::int64_t, wire::BurstValues&)>& change = {}) {
         for (std::int64_t k = first; k < end; ++k) {
-            frame(k);
-            if (k % 50 == 49) second(due(k));
+            auto values = values_of(k);
+            if (change) change(k, values);
+            bytes(frame_of(values), later + due(k));
+            if (k % 50 == 49) second(later + due(k));
         }
         flush();
     }
