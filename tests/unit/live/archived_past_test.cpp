@@ -1,11 +1,9 @@
 #include "daemon/live/live_record.hpp"
 
-#include <span>
 #include <string>
-#include "tests/support/catch.hpp"
-
 #include "protocol/archive/archive_writer.hpp"
 #include "protocol/archive/miniseed.hpp"
+#include "tests/support/catch.hpp"
 #include "tests/support/temporary_directory.hpp"
 #include "tests/unit/live/live_samples.hpp"
 
@@ -38,7 +36,7 @@ void write_archive(const std::filesystem::path& archive, const journal::StationC
     static_cast<void>(writer.sync());
 }
 
-TEST_CASE("archived samples are loaded one by one, and gaps stay gaps", "[live][past]") {
+TEST_CASE("archived samples are loaded one by one, and gaps stay gaps") {
     const test::TemporaryDirectory directory;
     const journal::StationCodes codes;
     write_archive(directory.path(), codes, 20, 24);
@@ -60,16 +58,14 @@ TEST_CASE("archived samples are loaded one by one, and gaps stay gaps", "[live][
     }
 }
 
-TEST_CASE("the last exchange of the sensor in the log is where the present one begins",
-          "[live][past]") {
+TEST_CASE("the last exchange of the sensor in the log is where the present one begins") {
     CHECK_FALSE(last_exchange({{"start", kZero, {}, {}, {}}}));
     CHECK(last_exchange({{"other_unit", kZero, {}, {}, {}},
                          {"other_unit", after(10.0), {}, {}, {}},
                          {"stop", after(20.0), {}, {}, {}}}) == after(10.0));
 }
 
-TEST_CASE("only the last day of the archive is loaded, and a missing archive gives no samples",
-          "[live][past]") {
+TEST_CASE("only the last day of the archive is loaded, and a missing archive gives no samples") {
     const test::TemporaryDirectory directory;
     const journal::StationCodes codes;
     write_archive(directory.path(), codes, 0, 0);

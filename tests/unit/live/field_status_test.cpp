@@ -1,7 +1,6 @@
 #include "daemon/survey/field_status.hpp"
 
 #include "tests/support/catch.hpp"
-
 #include "tests/unit/daemon/fake_recorder.hpp"
 #include "tests/unit/live/live_samples.hpp"
 
@@ -24,15 +23,17 @@ struct Field {
             live.take(sample);
         }
     }
+    void plan_two() {
+        occupations.use(two_sites(), {.planned = std::chrono::minutes(12), .planned_set_ups = 2});
+    }
     FakeRecorder recorder;
     Occupations occupations{recorder, two_sites(), {}};
     Record live{kProfile, 50, {}};
 };
 
-TEST_CASE("a stay is complete only with its planned set-ups", "[field]") {
+TEST_CASE("a stay is complete only with its planned set-ups") {
     Field field;
-    field.occupations.use(two_sites(),
-                          {.planned = std::chrono::minutes(12), .planned_set_ups = 2});
+    field.plan_two();
     (void)field.occupations.start("No.0", {}, minute(20));
     const auto plan_at = [&](int at) {
         return field_status(field.occupations, field.live, minute(at)).stay->plan;
@@ -52,11 +53,11 @@ TEST_CASE("a stay is complete only with its planned set-ups", "[field]") {
     const auto whole = field_status(field.occupations, field.live, minute(40)).whole;
     CHECK(whole.set_ups == 2);
     CHECK(whole.value->value() == Approx(980000.005).epsilon(0.0).margin(0.06));
-    CHECK(field.occupations.stop({}, minute(42)).message.english().find("planned") == std::string::npos);
+    CHECK(field.occupations.stop({}, minute(42)).message.english().find("planned") ==
+          std::string::npos);
 }
 
-TEST_CASE("a lift is asked about after three minutes at rest, unless Next set-up was pressed",
-          "[field]") {
+TEST_CASE("a lift is asked about after three minutes at rest, unless Next set-up was pressed") {
     Field field(true), pressed(true);
     (void)field.occupations.start("No.0", {}, minute(20));
     CHECK_FALSE(field_status(field.occupations, field.live, minute(33)).moved);
@@ -70,10 +71,9 @@ TEST_CASE("a lift is asked about after three minutes at rest, unless Next set-up
         CHECK_FALSE(field_status(pressed.occupations, pressed.live, minute(at)).moved);
 }
 
-TEST_CASE("the plan at an earlier instant has the set-ups up to it", "[field]") {
+TEST_CASE("the plan at an earlier instant has the set-ups up to it") {
     Field field;
-    field.occupations.use(two_sites(),
-                          {.planned = std::chrono::minutes(12), .planned_set_ups = 2});
+    field.plan_two();
     CHECK_FALSE(planned_stay(field.occupations, field.live, minute(25)));
     (void)field.occupations.start("No.0", {}, minute(20));
     (void)field.occupations.setup(minute(27));
@@ -83,8 +83,7 @@ TEST_CASE("the plan at an earlier instant has the set-ups up to it", "[field]") 
     CHECK(planned_stay(field.occupations, field.live, minute(30))->plan.running == 2);
 }
 
-TEST_CASE("a placement test counts twenty set-ups of three minutes, also after a restart",
-          "[field]") {
+TEST_CASE("a placement test counts twenty set-ups of three minutes, also after a restart") {
     Field field;
     CHECK(field.occupations.start("No.0", {}, minute(20), 1).kind == Outcome::Kind::refused);
     CHECK(field.occupations.start("No.0", {}, minute(20), 101).kind == Outcome::Kind::refused);
@@ -105,25 +104,20 @@ TEST_CASE("a placement test counts twenty set-ups of three minutes, also after a
     CHECK(field.occupations.planned_set_ups() == 1);
 }
 
-TEST_CASE("a stop at the end of the countdown is as planned", "[field]") {
-    Field field;
-    (void)field.occupations.start("No.0", {}, minute(1));
-    const auto stopped = field.occupations.stop({}, minute(11) - std::chrono::milliseconds(2900));
-    CHECK(stopped.kind == Outcome::Kind::done);
-    CHECK(stopped.message.english().find("shorter") == std::string::npos);
-}
-
-TEST_CASE("a short stay and a repeated site are said at the stop and the start", "[field]") {
+TEST_CASE("a short stay and a repeated site are said at the stop and the start") {
     Field field;
     (void)field.occupations.start("No.0", {}, minute(1));
     const auto stopped = field.occupations.stop({}, minute(3));
     CHECK(stopped.message.english().ends_with("; shorter than planned: 2.0 of 10 min"));
     const auto again = field.occupations.start("No.0", {}, minute(4));
     CHECK(again.message.english().ends_with("; the site was occupied before: stay 2"));
+    // A stop at the end of the countdown is as planned.
+    const auto planned = field.occupations.stop({}, minute(14) - std::chrono::milliseconds(2900));
+    CHECK(planned.kind == Outcome::Kind::done);
+    CHECK(planned.message.english().find("shorter") == std::string::npos);
 }
 
-TEST_CASE("missing samples of the running set-up give a warning, those before it do not",
-          "[field]") {
+TEST_CASE("missing samples of the running set-up give a warning, those before it do not") {
     FakeRecorder recorder;
     Occupations occupations(recorder, two_sites(), {});
     Record live{kProfile, 50, {}};
@@ -145,8 +139,8 @@ TEST_CASE("missing samples of the running set-up give a warning, those before it
     CHECK(said(16).empty());
 }
 
-TEST_CASE("tilt is relative to the first set-up of the day, and shown while the box may be touched",
-          "[field][level]") {
+TEST_CASE(
+    "tilt is relative to the first set-up of the day, and shown while the box may be touched") {
     Field field;
     const auto at = [&](int now) {
         return field_status(field.occupations, field.live, minute(now));
@@ -161,8 +155,7 @@ TEST_CASE("tilt is relative to the first set-up of the day, and shown while the 
     REQUIRE(now.level);
     CHECK(now.level->is_within);
     CHECK(now.level->tilt_arcmin[0] == Approx(0.0).margin(0.01));
-    field.occupations.use(two_sites(),
-                          {.planned = std::chrono::minutes(12), .planned_set_ups = 2});
+    field.plan_two();
     (void)field.occupations.start("No.0", {}, minute(20));
     CHECK_FALSE(at(20).level);
     CHECK_FALSE(at(25).level);
@@ -170,19 +163,16 @@ TEST_CASE("tilt is relative to the first set-up of the day, and shown while the 
 }
 
 events::Event event(const char* type, UtcTime utc) {
-    events::Event event;
-    event.type = type;
-    event.utc = utc;
-    event.details["site"] = "No.0";
-    return event;
+    return {type, utc, {}, {}, {{"site", "No.0"}}};
 }
 
-TEST_CASE("a survey day begins after the pause of the night", "[field]") {
+TEST_CASE("a survey day begins after the pause of the night, also if a stop was forgotten before") {
+    const bool is_forgotten = GENERATE(false, true);
     FakeRecorder recorder;
     std::vector<events::Event> events;
     for (const int hour : {0, 3, 6, 14, 16}) {
         events.push_back(event("start", minute(60 * hour)));
-        events.push_back(event("stop", minute(60 * hour + 10)));
+        if (hour != 6 || !is_forgotten) events.push_back(event("stop", minute(60 * hour + 10)));
     }
     const Occupations occupations(recorder, {}, events);
     const auto day = survey_day(occupations, minute(60 * 17));
@@ -191,29 +181,17 @@ TEST_CASE("a survey day begins after the pause of the night", "[field]") {
     CHECK(survey_day(occupations, minute(60 * 23)).empty());
 }
 
-TEST_CASE("a stop forgotten in the evening does not join two days", "[field]") {
-    FakeRecorder recorder;
-    const std::vector<events::Event> events{
-        event("start", minute(0)), event("stop", minute(10)), event("start", minute(60)),
-        event("start", minute(60 * 20)), event("stop", minute(60 * 20 + 10))};
-    const Occupations occupations(recorder, {}, events);
-    const auto day = survey_day(occupations, minute(60 * 21));
-    REQUIRE(day.size() == 1);
-    CHECK(day[0].set_ups.front().start == minute(60 * 20));
-}
-
-TEST_CASE("a site of the day before does not count as repeated", "[field]") {
+TEST_CASE("a site of the day before does not count as repeated") {
     FakeRecorder recorder;
     recorder.last = minute(60 * 20);
     Occupations occupations(recorder, two_sites(),
                             {event("start", minute(0)), event("stop", minute(10))});
-    const Record live{kProfile, 50, {}};
     (void)occupations.start("No.0", {}, minute(60 * 20));
     REQUIRE(occupations.running());
     REQUIRE(occupations.running()->number == 2);
-    }
+}
 
-TEST_CASE("sites are listed with the nearest first, and those without a position last", "[field]") {
+TEST_CASE("sites are listed with the nearest first, and those without a position last") {
     std::vector<text::Site> sites(3);
     sites[0].name = "nowhere";
     sites[0].is_placed = false;

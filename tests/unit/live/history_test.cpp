@@ -1,7 +1,6 @@
 #include "daemon/live/history.hpp"
 
 #include "tests/support/catch.hpp"
-
 #include "tests/unit/live/live_samples.hpp"
 
 namespace a351::daemon::live {
@@ -11,7 +10,7 @@ void take(History& history, double at_s, float value) {
     history.take(after(at_s), {value, 2.0F * value, 0.0F, -value});
 }
 
-TEST_CASE("an envelope has the least and the largest value of two seconds", "[live][history]") {
+TEST_CASE("an envelope has the least and the largest value of two seconds") {
     History history;
     for (const float value : {3.0F, 1.0F, 2.0F})
         take(history, 0.5 * static_cast<double>(value), value);
@@ -25,8 +24,7 @@ TEST_CASE("an envelope has the least and the largest value of two seconds", "[li
     CHECK(history.envelopes(Channel::temperature, kZero, after(2.0), 100).at(0).low == -3.0F);
 }
 
-TEST_CASE("neighbours are merged to at most the requested number of points, and gaps stay gaps",
-          "[live][history]") {
+TEST_CASE("neighbours are merged to at most the requested number of points, and gaps stay gaps") {
     History history;
     for (int i = 0; i < 3000; ++i) {
         if (i >= 1000 && i < 2000) continue;
@@ -46,8 +44,7 @@ TEST_CASE("neighbours are merged to at most the requested number of points, and 
     CHECK(seconds_between(found[4].time, found[5].time) == 2002.0);
 }
 
-TEST_CASE("the history is a day long, and starts again from where the clock is set back",
-          "[live][history]") {
+TEST_CASE("the history is a day long, and starts again from where the clock is set back") {
     History history;
     for (int i = 0; i < 50000; ++i) take(history, 2.0 * i, 1.0F);
     const auto day = history.envelopes(Channel::x, after(-10.0), after(1e6), 100000);

@@ -7,9 +7,8 @@
 #include <numbers>
 #include <string>
 #include <vector>
-#include "tests/support/catch.hpp"
-
 #include "protocol/signal/decimation.hpp"
+#include "tests/support/catch.hpp"
 #include "tests/unit/live/live_samples.hpp"
 
 using namespace a351::daemon::verdict;
@@ -22,17 +21,23 @@ verdict::RunningReading reading_between(const Record& record, UtcTime from, UtcT
     return record.reading({&set_up, 1});
 }
 
+/// Gives the record the samples [from, to) of one acceleration, mGal.
+void play(Record& record, std::int64_t from, std::int64_t to, double x = 0.0, double y = 0.0,
+          double z = 980000.0) {
+    for (std::int64_t i = from; i < to; ++i) record.take(placed(i, x, y, z));
+}
+
 double wave(std::int64_t i) { return 500.0 * std::sin(0.01 * static_cast<double>(i)); }
 
-TEST_CASE("until the filters are full the verdict is no data, since the first sample", "[live]") {
+TEST_CASE("until the filters are full the verdict is no data, since the first sample") {
     Record record(kProfile, 50, {});
-    for (std::int64_t i = 0; i < 500; ++i) record.take(placed(i, 0.0, 0.0, 980000.0));
+    play(record, 0, 500);
     const Verdict verdict = record.verdict();
     CHECK(verdict.state == verdict::State::no_data);
     CHECK(verdict.since == kZero);
 }
 
-TEST_CASE("troubles of the sensor are those of this run, not of the history", "[live]") {
+TEST_CASE("troubles of the sensor are those of this run, not of the history") {
     Record record(kProfile, 50, {});
     const auto play = [&](std::int64_t from) {
         for (std::int64_t i = from; i < from + 500; ++i)
@@ -45,8 +50,7 @@ TEST_CASE("troubles of the sensor are those of this run, not of the history", "[
     CHECK(play(500) == 1);
 }
 
-TEST_CASE("the vertical axis is compared with the history, but not that of another sensor",
-          "[live]") {
+TEST_CASE("the vertical axis is compared with the history, but not that of another sensor") {
     for (const bool is_other : {false, true}) {
         Record record(kProfile, 50, {});
         const auto play = [&](std::int64_t from, double x, double z) {
@@ -61,7 +65,7 @@ TEST_CASE("the vertical axis is compared with the history, but not that of anoth
     }
 }
 
-TEST_CASE("the oven inside, not the outer one, is compared with the sensor", "[live]") {
+TEST_CASE("the oven inside, not the outer one, is compared with the sensor") {
     for (const auto place : {journal::OvenPlace::inner, journal::OvenPlace::outer}) {
         Record record(kProfile, 50, {});  // The sensor has 42.5 degC.
         for (std::int64_t i = 0; i < 50 * 650; ++i) {
@@ -76,7 +80,7 @@ TEST_CASE("the oven inside, not the outer one, is compared with the sensor", "[l
     }
 }
 
-TEST_CASE("a viewer reads every sample once, in blocks without a gap", "[live]") {
+TEST_CASE("a viewer reads every sample once, in blocks without a gap") {
     Record record(kProfile, 50, {});
     for (std::int64_t i = 0; i < 1000; ++i)
         if (i < 400 || i >= 410) record.take(placed(i, static_cast<double>(i), 0.0, 980000.0));
@@ -97,9 +101,9 @@ TEST_CASE("a viewer reads every sample once, in blocks without a gap", "[live]")
     CHECK(record.end() == 990);
 }
 
-TEST_CASE("a viewer that returns late continues with the oldest sample that is kept", "[live]") {
+TEST_CASE("a viewer that returns late continues with the oldest sample that is kept") {
     Record record(kProfile, 50, {});
-    for (std::int64_t i = 0; i < 20000; ++i) record.take(placed(i, 0.0, 0.0, 980000.0));
+    play(record, 0, 20000);
     std::uint64_t cursor = 17;
     const auto block = record.block_from(cursor, 100000);
     REQUIRE(block);
@@ -107,27 +111,10 @@ TEST_CASE("a viewer that returns late continues with the oldest sample that is k
     CHECK(cursor == 20000);
 }
 
-TEST_CASE("a viewer that reads every tenth of a second misses nothing at 50 000 samples/s",
-          "[live]") {
-    Record record(kProfile, 50, {});
-    std::uint64_t cursor = 0;
-    std::int64_t next = 0;
-    for (int look = 0; look < 5; ++look) {
-        for (std::int64_t i = 0; i < 5000; ++i)
-            record.take(placed(5000 * look + i, 0.0, 0.0, 980000.0));
-        while (const auto block = record.block_from(cursor, 4000)) {
-            CHECK(block->first_index == next);
-            next = block->first_index + static_cast<std::int64_t>(block->counts[0].size());
-        }
-    }
-    CHECK(next == 25000);
-}
-
 TEST_CASE(
-    "samples that a replay delivers again are skipped, although the archive rounds their times",
-    "[live]") {
+    "samples that a replay delivers again are skipped, although the archive rounds their times") {
     Record record(kProfile, 50, {});
-    for (std::int64_t i = 0; i < 100; ++i) record.take(placed(i, 0.0, 0.0, 980000.0));
+    play(record, 0, 100);
     record.end_of_history();
     for (std::int64_t i = 50; i < 120; ++i) {
         PlacedSample again = placed(i, 0.0, 0.0, 980000.0);
@@ -145,7 +132,7 @@ PlacedSample steady(std::int64_t i) {
     return sample;
 }
 
-TEST_CASE("a clock that is set back starts the history again from there", "[live]") {
+TEST_CASE("a clock that is set back starts the history again from there") {
     constexpr std::int64_t kBefore = 40 * 60 * 50, kBehind = 60 * 50;
     constexpr Nanoseconds kBack = std::chrono::minutes(30);
     Record record(kProfile, 50, {});
@@ -167,8 +154,7 @@ TEST_CASE("a clock that is set back starts the history again from there", "[live
     CHECK(reading.used_s == Approx(60.0 - 20.0).margin(4.0));
 }
 
-TEST_CASE("the states of the past end at a gap of 90 s, and equal thresholds change none",
-          "[live]") {
+TEST_CASE("the states of the past end at a gap of 90 s, and equal thresholds change none") {
     Record record(kProfile, 50, {});
     const auto take = [&](std::int64_t first, std::int64_t end) {
         for (std::int64_t i = first; i < end; ++i) record.take(steady(i));
@@ -187,8 +173,7 @@ TEST_CASE("the states of the past end at a gap of 90 s, and equal thresholds cha
     CHECK(record.state_at(after(1810.0 + gap_s)) == verdict::State::no_data);
 }
 
-TEST_CASE("the live series is identical to the decimation in the evening's correction",
-          "[live][thinning]") {
+TEST_CASE("the live series is identical to the decimation in the evening's correction") {
     Thinning thinning(kProfile, 50);
     std::vector<LiveSample> live;
     std::vector<double> z;
@@ -218,8 +203,7 @@ TEST_CASE("the live series is identical to the decimation in the evening's corre
     CHECK(live[10].shake.value() == Approx(0.5 * (wave(1414) - wave(1499))).margin(0.1));
 }
 
-TEST_CASE("all rates of the profile are decimated to 2 s with filters of the same length in time",
-          "[live][thinning]") {
+TEST_CASE("all rates of the profile are decimated to 2 s with filters of the same length in time") {
     for (const auto& rate : kProfile.output_rates_hz) {
         Thinning thinning(kProfile, rate.value);
         std::vector<LiveSample> live;
@@ -238,8 +222,7 @@ TEST_CASE("all rates of the profile are decimated to 2 s with filters of the sam
 
 TEST_CASE(
     "a missing sample affects only the values whose filter includes it, a long gap restarts the "
-    "filter",
-    "[live][thinning]") {
+    "filter") {
     Thinning thinning(kProfile, 50);
     std::vector<LiveSample> live;
     for (std::int64_t i = 0; i < 6000; ++i)
@@ -256,7 +239,7 @@ TEST_CASE(
     CHECK_FALSE(std::isnan(live[5].axes[2].value()));
 }
 
-TEST_CASE("the live record gives its samples to the verdict and to the reading", "[live]") {
+TEST_CASE("the live record gives its samples to the verdict and to the reading") {
     Record record(kProfile, 50, {});
     CHECK(record.verdict().state == verdict::State::no_data);
     for (std::int64_t i = 0; i < 40 * 60 * 50; ++i) record.take(steady(i));
@@ -301,7 +284,7 @@ Changes changes_of(Record& record, int from, int to, int early = 0) {
     return changes;
 }
 
-TEST_CASE("each change of the verdict has the time of the data that show it", "[live]") {
+TEST_CASE("each change of the verdict has the time of the data that show it") {
     Record record(kProfile, 50, {});
     CHECK(changes_of(record, 0, 1800) == Changes{"no data 0.00", "settling 19.98", "stable 1229.98",
                                                  "disturbed 1501.98", "stable 1573.98"});
@@ -309,20 +292,15 @@ TEST_CASE("each change of the verdict has the time of the data that show it", "[
     CHECK(changes_of(record, 1900, 2000) == Changes{"no data 1809.98", "stable 1919.98"});
 }
 
-TEST_CASE("sample times that are corrected in the first minute do not move later verdicts",
-          "[live]") {
+TEST_CASE("sample times that are corrected in the first minute do not move later verdicts") {
     Record record(kProfile, 50, {});
     changes_of(record, 0, 100, 2037);
     CHECK(changes_of(record, 100, 1800) ==
           Changes{"stable 1229.98", "disturbed 1501.98", "stable 1573.98"});
 }
 
-TEST_CASE("another sensor is judged afresh, and its reading has no data of the one before",
-          "[live]") {
+TEST_CASE("another sensor is judged afresh, and its reading has no data of the one before") {
     Record record(kProfile, 50, {});
-    const auto play = [&](std::int64_t from, std::int64_t to, double mgal) {
-        for (std::int64_t i = from; i < to; ++i) record.take(placed(i, 0.0, 0.0, mgal));
-    };
     constexpr std::int64_t kExchange = 50 * 1800, kNext = kExchange + 50 * 5,
                            kEnd = kNext + 50 * 300;
     for (std::int64_t i = 0; i < kExchange; ++i) record.take(steady(i));
@@ -331,15 +309,15 @@ TEST_CASE("another sensor is judged afresh, and its reading has no data of the o
     SECTION("while it records") {
         record.begin_unit(last);
         CHECK(record.verdict().state == verdict::State::no_data);
-        play(kNext, kEnd, 979000.0);
+        play(record, kNext, kEnd, 0.0, 0.0, 979000.0);
     }
     SECTION("after a restart, when the archive gives the data of both") {
-        play(kNext, kEnd, 979000.0);
+        play(record, kNext, kEnd, 0.0, 0.0, 979000.0);
         record.end_of_history();
         record.begin_unit(last);
     }
     Record fresh(kProfile, 50, {});
-    for (std::int64_t i = kNext; i < kEnd; ++i) fresh.take(placed(i, 0.0, 0.0, 979000.0));
+    play(fresh, kNext, kEnd, 0.0, 0.0, 979000.0);
     CHECK(record.verdict().state == fresh.verdict().state);
     CHECK(record.motion(kZero, last).empty());
     const auto reading = reading_between(record, kZero, placed(kEnd, 0.0, 0.0, 0.0).time);
@@ -349,34 +327,29 @@ TEST_CASE("another sensor is judged afresh, and its reading has no data of the o
     CHECK_FALSE(record.history(Channel::z, kZero, last, 100).empty());
 }
 
-TEST_CASE("tilt is given relative to a set-up, with the side to turn", "[live][level]") {
+TEST_CASE("tilt is given relative to a set-up, with the side to turn") {
     const auto mgal_of = [](double arcmin) {
         return kMilliGalPerStandardGravity * std::sin(arcmin / 60.0 * std::numbers::pi / 180.0);
     };
     Record record(kProfile, 50, {});
-    for (std::int64_t i = 0; i < 6000; ++i)
-        record.take(placed(i, mgal_of(30.0), mgal_of(-20.0), 980000.0));
-    for (std::int64_t i = 6000; i < 6200; ++i)
-        record.take(placed(i, mgal_of(32.4), mgal_of(-20.9), 980000.0));
+    play(record, 0, 6000, mgal_of(30.0), mgal_of(-20.0), 980000.0);
+    play(record, 6000, 6200, mgal_of(32.4), mgal_of(-20.9), 980000.0);
     const auto level = record.level_against(kZero, after(120.0));
     REQUIRE(level);
     CHECK(level->tilt_arcmin[0] == Approx(2.4).margin(0.001));
     CHECK(level->tilt_arcmin[1] == Approx(-0.9).margin(0.001));
     CHECK_FALSE(level->is_within);
     CHECK(level->advice == std::vector<text::Message>{"lower the +x side by 2.4'"});
-    for (std::int64_t i = 6200; i < 6400; ++i)
-        record.take(placed(i, mgal_of(30.5), mgal_of(-20.9), 980000.0));
+    play(record, 6200, 6400, mgal_of(30.5), mgal_of(-20.9), 980000.0);
     CHECK(record.level_against(kZero, after(120.0))->is_within);
     CHECK_FALSE(record.level_against(after(500.0), after(600.0)));
 }
 
-TEST_CASE("the level of a sensor on its side is that of its horizontal axes", "[live][level]") {
+TEST_CASE("the level of a sensor on its side is that of its horizontal axes") {
     constexpr double kArcmin_mgal = 285.26;  // g sin 1'
     Record record(kProfile, 50, {});
-    for (std::int64_t i = 0; i < 6000; ++i)
-        record.take(placed(i, -980000.0, 5.0 * kArcmin_mgal, 2.0 * kArcmin_mgal));
-    for (std::int64_t i = 6000; i < 6200; ++i)
-        record.take(placed(i, -980000.0, 5.5 * kArcmin_mgal, 0.0));
+    play(record, 0, 6000, -980000.0, 5.0 * kArcmin_mgal, 2.0 * kArcmin_mgal);
+    play(record, 6000, 6200, -980000.0, 5.5 * kArcmin_mgal, 0.0);
     const auto level = record.level_against(kZero, after(120.0));
     REQUIRE(level);
     CHECK(level->axes == std::array{'y', 'z'});
@@ -384,21 +357,19 @@ TEST_CASE("the level of a sensor on its side is that of its horizontal axes", "[
     CHECK(level->advice == std::vector<text::Message>{"raise the +z side by 2.0'"});
 }
 
-TEST_CASE("lifting the box at the end of a set-up does not change the level of that set-up",
-          "[live][level]") {
+TEST_CASE("lifting the box at the end of a set-up does not change the level of that set-up") {
     constexpr double kLevel = 8000.0, kLifted = 80'000.0;  // 28' and 4.7 deg.
     Record record(kProfile, 50, {});
     for (std::int64_t i = 0; i < 600 * 50; ++i)
         record.take(placed(i, i < 540 * 50 ? kLevel : kLifted, 0.0, 980000.0));
-    for (std::int64_t i = 600 * 50; i < 630 * 50; ++i)
-        record.take(placed(i, kLevel, 0.0, 980000.0));
+    play(record, 600 * 50, 630 * 50, kLevel, 0.0, 980000.0);
     const auto level = record.level_against(kZero, after(600.0));
     REQUIRE(level);
     CHECK(level->tilt_arcmin[0] == Approx(0.0).margin(0.01));
     CHECK(level->is_within);
 }
 
-TEST_CASE("nothing from before or after a set-up enters its reading", "[live]") {
+TEST_CASE("nothing from before or after a set-up enters its reading") {
     Record record(kProfile, 50, {});
     for (std::int64_t i = 0; i < 600 * 50; ++i) {
         const bool is_within = i >= 100 * 50 && i < 400 * 50;
@@ -410,7 +381,7 @@ TEST_CASE("nothing from before or after a set-up enters its reading", "[live]") 
     CHECK(reading.used_s == Approx(300.0 - 18.0).margin(2.0));
 }
 
-TEST_CASE("oven values are kept for a day, at most one every 2 s", "[live]") {
+TEST_CASE("oven values are kept for a day, at most one every 2 s") {
     Record record(kProfile, 50, {});
     for (int i = 0; i < 100; ++i) record.take(OvenPoint{after(i), DegC(42.0 + i), DegC(42.5)});
     CHECK(record.oven_history(journal::OvenPlace::inner, kZero, after(1000.0), 1000).size() == 50);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include "tests/support/catch.hpp"
-
 #include "tests/unit/signal/made_up_box.hpp"
 
 using namespace a351;
@@ -38,9 +37,7 @@ double prompted_s(const MadeUpBox& box, double from_s) {
 
 TEST_CASE(
     "the operator is asked within a minute of a kick, three minutes at rest after a lift, and on "
-    "the "
-    "way to the car",
-    "[survey][moved_box]") {
+    "the way to the car") {
     constexpr int kEach = 67;
     int in_time[3]{}, early[3]{};
     for (unsigned seed = 1; seed <= kEach; ++seed)
@@ -78,8 +75,7 @@ TEST_CASE(
     CHECK(early[1] == 0);
 }
 
-TEST_CASE("nothing is asked about a lift that Next set-up follows within three minutes",
-          "[survey][moved_box]") {
+TEST_CASE("nothing is asked about a lift that Next set-up follows within three minutes") {
     for (unsigned seed = 1; seed <= 50; ++seed) {
         MadeUpBox box(seed);
         box.rest(360.0);
@@ -93,7 +89,7 @@ TEST_CASE("nothing is asked about a lift that Next set-up follows within three m
     }
 }
 
-TEST_CASE("a lorry that shakes the box for a minute raises no question", "[survey][moved_box]") {
+TEST_CASE("a lorry that shakes the box for a minute raises no question") {
     int asked = 0;
     for (unsigned seed = 1; seed <= 200; ++seed) {
         MadeUpBox box(seed);
@@ -107,7 +103,7 @@ TEST_CASE("a lorry that shakes the box for a minute raises no question", "[surve
     CHECK(asked <= 10);  // 5 %
 }
 
-TEST_CASE("an answer ends the question, and a later move raises another", "[survey][moved_box]") {
+TEST_CASE("an answer ends the question, and a later move raises another") {
     MadeUpBox box(1);
     box.rest(300.0);
     box.shake(12.0, 20000.0);
@@ -127,8 +123,7 @@ TEST_CASE("an answer ends the question, and a later move raises another", "[surv
     CHECK(text_of(*carried).english().find("the box was moved at ") == 0);
 }
 
-TEST_CASE("a start on the way is asked about, and nothing while the box is not at rest",
-          "[survey][moved_box]") {
+TEST_CASE("a start on the way is asked about, and nothing while the box is not at rest") {
     MadeUpBox box(1);
     box.rest(60.0);
     box.shake(40.0, 20000.0);

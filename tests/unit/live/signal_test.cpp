@@ -1,5 +1,7 @@
 #include "daemon/survey/signal.hpp"
 
+#include <vector>
+#include "daemon/survey/lasting_word.hpp"
 #include "tests/support/catch.hpp"
 
 namespace a351::daemon::survey {
@@ -7,7 +9,7 @@ namespace {
 
 using verdict::State;
 
-TEST_CASE("a plan of several set-ups counts each one down", "[signal]") {
+TEST_CASE("a plan of several set-ups counts each one down") {
     struct Case {
         int planned, running;
         double stay_s, set_up_s, left_s;
@@ -35,7 +37,7 @@ TEST_CASE("a plan of several set-ups counts each one down", "[signal]") {
     }
 }
 
-TEST_CASE("a set-up of which more than half was disturbed needs more time", "[signal]") {
+TEST_CASE("a set-up of which more than half was disturbed needs more time") {
     CHECK_FALSE(set_up_plan(2, 720.0, 3, 700.0, 10.0, 10.0).is_disturbed);  // beyond the plan
     const SetUpPlan plan = set_up_plan(2, 720.0, 1, 360.0, 360.0, 100.0);
     CHECK(plan.left_s == 80.0);
@@ -47,7 +49,7 @@ TEST_CASE("a set-up of which more than half was disturbed needs more time", "[si
 
 SetUpPlan plan_with(int running, double left_s) { return {running, 2, left_s, false}; }
 
-TEST_CASE("one word says what to do now, the worst first", "[signal]") {
+TEST_CASE("one word says what to do now, the worst first") {
     const auto stay = [](int running, double left_s) {
         return PlannedStay{"No.1", plan_with(running, left_s)};
     };
@@ -65,7 +67,7 @@ TEST_CASE("one word says what to do now, the worst first", "[signal]") {
     }
 }
 
-TEST_CASE("the sentence has the reason and what to do, with two buttons at most", "[signal]") {
+TEST_CASE("the sentence has the reason and what to do, with two buttons at most") {
     const auto said = [](State state, const std::optional<PlannedStay>& stay,
                          const std::vector<Contradiction>& look = {}) {
         return signal_of({state, {}, {}}, {"why"}, stay, "No.5", look);
@@ -112,6 +114,40 @@ TEST_CASE("the sentence has the reason and what to do, with two buttons at most"
     frozen.lack = verdict::Lack::changes;
     CHECK(signal_of(frozen, {"temperature unchanged"}, {}, "", {}).sentence ==
           "The values cannot be used: temperature unchanged. Switch the sensor off and on.");
+}
+
+const UtcTime kFirstSecond{std::chrono::hours(400000)};
+
+UtcTime second(int seconds) { return kFirstSecond + std::chrono::seconds(seconds); }
+
+/// Gives one word a second and returns those that are to be logged.
+std::vector<WordChange> logged(LastingWord lasting, const std::vector<Word>& words) {
+    std::vector<WordChange> changes;
+    for (std::size_t i = 0; i < words.size(); ++i)
+        if (const auto change = lasting.take(words[i], second(static_cast<int>(i))))
+            changes.push_back(*change);
+    return changes;
+}
+
+TEST_CASE("a word that lasts five seconds is logged once, with its begin") {
+    std::vector words(20, Word::keep_off);
+    words.resize(24, Word::lift);
+    words.resize(40, Word::go);
+    CHECK(logged(LastingWord(), words) ==
+          std::vector<WordChange>{{Word::keep_off, second(0)}, {Word::go, second(24)}});
+}
+
+TEST_CASE("words that change each second are not logged") {
+    std::vector words(20, Word::keep_off);
+    for (int i = 0; i < 3600; ++i) words.push_back(i % 2 == 0 ? Word::go : Word::keep_off);
+    words.resize(words.size() + 5, Word::go);
+    words.resize(words.size() + 20, Word::keep_off);
+    CHECK(logged(LastingWord(), words) == std::vector<WordChange>{{Word::keep_off, second(0)}});
+}
+
+TEST_CASE("a word that was not shown from its begin is logged from when it was") {
+    CHECK(logged(LastingWord(second(12)), std::vector(20, Word::go)) ==
+          std::vector<WordChange>{{Word::go, second(12)}});
 }
 
 }  // namespace

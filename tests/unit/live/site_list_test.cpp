@@ -34,7 +34,7 @@ struct List {
     std::filesystem::path file;
 };
 
-TEST_CASE("a new site is one further row, and all other bytes of the list are kept", "[sites]") {
+TEST_CASE("a new site is one further row, and all other bytes of the list are kept") {
     const std::string old = kHeader + "A , 140,36,10,979800.10 \n\nB,140,36,,\n";
     List list(old);
     const auto sites = list.append(new_site("C d"));
@@ -51,7 +51,8 @@ TEST_CASE("a new site is one further row, and all other bytes of the list are ke
     CHECK(list.content().ends_with("\nD,140.125,36.25,12.5,979801.123\n"));
 }
 
-TEST_CASE("the row has the separator and the decimal sign of its list", "[sites]") {
+TEST_CASE(
+    "the row has the separator, the decimal sign, the columns and the line ends of its list") {
     const std::string old =
         "site;longitude_deg;latitude_deg;altitude_m;gravity_mgal\nA.1;140,5;36;10;\n;;;;\n";
     List list(old);
@@ -63,21 +64,17 @@ TEST_CASE("the row has the separator and the decimal sign of its list", "[sites]
     CHECK(commas.content() == quoted + "B;2,\"140,125\",\"36,25\",,\n");
     List semicolons("site;longitude_deg;latitude_deg;altitude_m;gravity_mgal\nA;140;36;10;\n");
     CHECK(semicolons.append(new_site("B;2")).back().name == "B;2");
+    List mixed(
+        "\xEF\xBB\xBFgravity_mgal,remark,site,latitude_deg,longitude_deg,altitude_m\r\n"
+        "979800,steps,A,36,140,10");  // without a line end
+    const std::string before = mixed.content();
+    (void)mixed.append(new_site("B"));
+    CHECK(mixed.content() == before + "\r\n,,B,36.25,140.125,\r\n");
     List wide(std::string("\xFF\xFEs\0", 4));
     CHECK_THROWS_AS(wide.append(new_site("B")), InputError);
 }
 
-TEST_CASE("the row has the columns and the line ends of its list", "[sites]") {
-    List list(
-        "\xEF\xBB\xBFgravity_mgal,remark,site,latitude_deg,longitude_deg,altitude_m\r\n"
-        "979800,steps,A,36,140,10");  // without a line end
-    const std::string old = list.content();
-    (void)list.append(new_site("B"));
-    CHECK(list.content() == old + "\r\n,,B,36.25,140.125,\r\n");
-}
-
-TEST_CASE("a site that cannot be added is refused with the reason, and the list stays as it is",
-          "[sites]") {
+TEST_CASE("a site that cannot be added is refused with the reason, and the list stays as it is") {
     List list(kHeader + "A,140,36,10,979800\n");
     const std::string old = list.content();
     const auto trouble = [&](const text::Site& site) {
@@ -114,7 +111,7 @@ TEST_CASE("a site that cannot be added is refused with the reason, and the list 
     CHECK_THAT(trouble(site), ContainsSubstring("allowed: 976000 to 984000"));
 }
 
-TEST_CASE("the list is read again before it is written, and a broken one is refused", "[sites]") {
+TEST_CASE("the list is read again before it is written, and a broken one is refused") {
     List list(kHeader + "A,140,36,10,979800\n");
     (void)list.append(new_site("B"));
     const std::string changed = list.content() + "E,140.5,36.5,1,\n";  // by a text editor
@@ -125,7 +122,7 @@ TEST_CASE("the list is read again before it is written, and a broken one is refu
     CHECK_THROWS_WITH(list.append(new_site("D")), ContainsSubstring("sites.csv:2"));
 }
 
-TEST_CASE("a link to the list keeps pointing to it, and its permissions stay", "[sites]") {
+TEST_CASE("a link to the list keeps pointing to it, and its permissions stay") {
     List list(kHeader + "A,140,36,10,979800\n");
     const auto link = list.directory.path() / "link.csv";
     std::filesystem::create_symlink("sites.csv", link);
@@ -137,7 +134,7 @@ TEST_CASE("a link to the list keeps pointing to it, and its permissions stay", "
     CHECK(list.content().ends_with("B,140.125,36.25,,\n"));
 }
 
-TEST_CASE("when any file operation fails the list is the old one or the new one", "[sites]") {
+TEST_CASE("when any file operation fails the list is the old one or the new one") {
     List list(kHeader + "A,140,36,10,979800\n");
     const std::string old = list.content();
     test::FailingFiles counting;
@@ -152,8 +149,7 @@ TEST_CASE("when any file operation fails the list is the old one or the new one"
     }
 }
 
-TEST_CASE("a new site is used at once, and a list that cannot be written names the remedy",
-          "[sites]") {
+TEST_CASE("a new site is used at once, and a list that cannot be written names the remedy") {
     List list(kHeader + "No.1,140,36,10,979800\n");
     FakeRecorder recorder;
     Occupations occupations(recorder, text::read_sites(list.file), {}, {.sites_file = list.file});
