@@ -1,5 +1,4 @@
 #include "tests/support/catch.hpp"
-
 #include "tests/support/wrong_sensor.hpp"
 
 namespace a351::sim {
@@ -12,30 +11,21 @@ std::string found(const WatchedRecord& record) {
     return troubles ? troubles->texts.front() : "";
 }
 
-TEST_CASE("knocks, lifts and drives of a survey day are no trouble", "[believable]") {
+TEST_CASE(
+    "a survey day, an oven in a hot car, a start in the cold and a turned box are no trouble") {
     CHECK(found({load_scenario("tsukuba"), 11}) == "");
     CHECK(found({load_scenario("roadside"), 12, 4 * kSecondsPerHour}) == "");
-}
-
-TEST_CASE("an oven in a hot car is no trouble", "[believable]") {
     scenario::Scenario hot = load_scenario("hot-afternoon");
     for (auto& ambient : hot.ambient) ambient.degc += 25.0;
     CHECK(found({hot, 13}) == "");
-}
-
-TEST_CASE("a box that is switched on in the cold is no trouble", "[believable]") {
     scenario::Scenario cold = load_scenario("warm-up");
     const DegC set_point(cold.oven.set_point_degc);
     cold.oven.set_point_degc = -10.0;
     CHECK(found({cold, 14, 4 * kSecondsPerHour, set_point}) == "");
-}
-
-TEST_CASE("a box that is turned over is no trouble", "[believable]") {
     CHECK(found({load_scenario("tumble"), 15}) == "");
 }
 
-TEST_CASE("every kind of wrong sensor is named within its time, in the middle of a stay",
-          "[believable]") {
+TEST_CASE("every kind of wrong sensor is named within its time, in the middle of a stay") {
     for (const WrongSensor& wrong : wrong_sensors()) {
         if (wrong.within_s > 1000.0) continue;  // The bench has a day for it.
         INFO(wrong.name);
@@ -47,7 +37,8 @@ TEST_CASE("every kind of wrong sensor is named within its time, in the middle of
         REQUIRE(troubles->texts.size() == 1);
         CHECK(troubles->texts.front().find(wrong.words) != std::string::npos);
         if (!wrong.is_at_next_start)
-            CHECK(troubles->texts.front().find("a351d --config FILE --identify") != std::string::npos);
+            CHECK(troubles->texts.front().find("a351d --config FILE --identify") !=
+                  std::string::npos);
     }
 }
 

@@ -20,8 +20,7 @@ struct Arrivals {
     std::int64_t index = 0;
 };
 
-TEST_CASE("a rate that is 2 % off is named within a minute, one that is 0.4 % off is not",
-          "[believable]") {
+TEST_CASE("a rate that is 2 % off is named within a minute, one that is 0.4 % off is not") {
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
         for (const double error : {0.02, -0.02}) {
             const auto named_s = sim::rate_named_after_s(error, seed);
@@ -33,7 +32,7 @@ TEST_CASE("a rate that is 2 % off is named within a minute, one that is 0.4 % of
     }
 }
 
-TEST_CASE("the rate is named as it is", "[believable]") {
+TEST_CASE("the rate is named as it is, and while it is wrong") {
     Arrivals arrivals;
     arrivals.play(60.0, 51.0);
     REQUIRE(arrivals.watch.wrong_rate());
@@ -41,17 +40,11 @@ TEST_CASE("the rate is named as it is", "[believable]") {
     CHECK(rate_trouble(Hertz(51.0), kNominalHz)
               .english()
               .starts_with("the sensor sends 51.0 samples/s, but output_rate_hz is 50"));
-}
-
-TEST_CASE("a rate that is right again is no trouble", "[believable]") {
-    Arrivals arrivals;
-    arrivals.play(60.0, 49.0);
-    REQUIRE(arrivals.watch.wrong_rate());
     arrivals.play(60.0, 50.0);
     CHECK_FALSE(arrivals.watch.wrong_rate());
 }
 
-TEST_CASE("samples that waited, or were lost, are not another rate", "[believable]") {
+TEST_CASE("samples that waited, or were lost, are not another rate") {
     for (const std::int64_t jump : {500, -500}) {
         Arrivals arrivals;
         arrivals.play(30.0, 50.0);
@@ -63,7 +56,7 @@ TEST_CASE("samples that waited, or were lost, are not another rate", "[believabl
     }
 }
 
-TEST_CASE("samples that waited in a gap and come at once are not another rate", "[believable]") {
+TEST_CASE("samples that waited in a gap and come at once are not another rate") {
     Arrivals arrivals;
     arrivals.play(30.0, 50.0);
     arrivals.now_s += 70.0;

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <string>
-#include <utility>
 
 #include "daemon/believable/limits.hpp"
 #include "tests/support/catch.hpp"
@@ -28,7 +27,7 @@ TemperatureCounts counts_of(const TemperatureFormat& format, double degc) {
 
 }  // namespace
 
-TEST_CASE("the counts of 42.5 degC read as published in the other formats", "[believable]") {
+TEST_CASE("the counts of 42.5 degC read as published in the other formats") {
     const std::array<std::int32_t, 3> counts{-1981, -129'826'816, 43'520};
     // Rows: the format of the unit; columns: that of the reader, degC.
     const std::array<std::array<double, 3>, 3> expected{
@@ -45,14 +44,13 @@ TEST_CASE("the counts of 42.5 degC read as published in the other formats", "[be
     }
 }
 
-TEST_CASE("a register without a value has no format", "[believable]") {
+TEST_CASE("a register without a value has no format") {
     for (const std::int32_t empty : {0, -1})
         CHECK(fitting_formats({empty, empty, double(empty)}, format_of(*wire::find_profile("A351")))
                   .empty());
 }
 
-TEST_CASE("the format of a unit is found from 7.5 to 60 degC, whatever the profile",
-          "[believable]") {
+TEST_CASE("the format of a unit is found from 7.5 to 60 degC, whatever the profile") {
     for (const TemperatureFormat& unit : temperature_formats())
         for (const TemperatureFormat& reader : temperature_formats())
             for (double degc = 7.5; degc <= 60.0; degc += 2.5) {
@@ -65,8 +63,7 @@ TEST_CASE("the format of a unit is found from 7.5 to 60 degC, whatever the profi
             }
 }
 
-TEST_CASE("with the oven's temperature the format of a unit is found below 7 degC, too",
-          "[believable]") {
+TEST_CASE("with the oven's temperature the format of a unit is found below 7 degC, too") {
     const auto& formats = temperature_formats();
     const auto finds = [&](std::size_t unit, std::size_t reader, double degc) {
         const auto fits =
@@ -79,7 +76,7 @@ TEST_CASE("with the oven's temperature the format of a unit is found below 7 deg
     }
 }
 
-TEST_CASE("a format of the user fits if it gives a usual temperature", "[believable]") {
+TEST_CASE("a format of the user fits if it gives a usual temperature") {
     // 500 counts are 33.1 degC in the format of the M-A352AD10, which is nearer to 30 degC.
     const auto fits = fitting_formats({495, 505, 500.0}, {"", 0.01, 20.0});
     REQUIRE(!fits.empty());
@@ -90,7 +87,7 @@ TEST_CASE("a format of the user fits if it gives a usual temperature", "[believa
     CHECK(other[0].format.formula == std::string("N x -0.0037918 + 34.987"));
 }
 
-TEST_CASE("half, double and quarter scales are not a box at rest", "[believable]") {
+TEST_CASE("half, double and quarter scales are not a box at rest") {
     for (const double gravity_g : {0.997, 1.003}) {
         for (const double bias_g : {-0.05, 0.05})
             CHECK(is_norm_believable(StandardGravity(gravity_g + bias_g)));
