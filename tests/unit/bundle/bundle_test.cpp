@@ -3,7 +3,6 @@
 #include "daemon/bundle/bundle_check.hpp"
 #include "daemon/bundle/survey_day.hpp"
 #include "daemon/bundle/tar.hpp"
-#include "protocol/text/text_file.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_directory.hpp"
 
@@ -40,7 +39,7 @@ events::Occupation stay(const char* start) {
 
 }  // namespace
 
-TEST_CASE("the header of a tar file is that of GNU tar", "[daemon][bundle]") {
+TEST_CASE("the header of a tar file is that of GNU tar") {
     // printf 'site\n' > a; touch -d @1772371536 a
     // tar --format=ustar --numeric-owner --owner=0 --group=0 --mode=644 -cf - a
     std::string expected(kTarBlock, '\0');
@@ -65,8 +64,7 @@ TEST_CASE("the header of a tar file is that of GNU tar", "[daemon][bundle]") {
     CHECK_THROWS_AS(tar_header({"a", std::uint64_t{1} << 33U}), std::invalid_argument);
 }
 
-TEST_CASE("a bundle has the texts and the recorded files with their checksums",
-          "[daemon][bundle]") {
+TEST_CASE("a bundle has the texts and the recorded files with their checksums") {
     const test::TemporaryDirectory folder;
     folder.write("root/metadata/station.xml", std::string(300'000, 'x'));
     const std::string bytes = bundle_of(folder.path() / "root", utc("2026-03-01T00:00:00Z"));
@@ -81,7 +79,7 @@ TEST_CASE("a bundle has the texts and the recorded files with their checksums",
                      "empty.txt\n") != std::string::npos);
 }
 
-TEST_CASE("a changed or missing byte anywhere in a bundle is found", "[daemon][bundle]") {
+TEST_CASE("a changed or missing byte anywhere in a bundle is found") {
     const test::TemporaryDirectory folder;
     folder.write("root/metadata/station.xml", "<xml/>");
     const std::string bytes = bundle_of(folder.path() / "root", utc("2026-03-01T00:00:00Z"));
@@ -110,7 +108,7 @@ TEST_CASE("a changed or missing byte anywhere in a bundle is found", "[daemon][b
                           std::string(kTarEnd, '\0')));
 }
 
-TEST_CASE("a recorded file that is cut while it is packed ends the bundle", "[daemon][bundle]") {
+TEST_CASE("a recorded file that is cut while it is packed ends the bundle") {
     const test::TemporaryDirectory folder;
     const auto xml = folder.write("root/metadata/station.xml", std::string(1'000'000, 'x'));
     Bundle bundle(
@@ -121,8 +119,7 @@ TEST_CASE("a recorded file that is cut while it is packed ends the bundle", "[da
     CHECK_THROWS_AS(all_of(bundle), std::system_error);
 }
 
-TEST_CASE("a day begins twelve hours before the first stay after the last night",
-          "[daemon][bundle]") {
+TEST_CASE("a day begins twelve hours before the first stay after the last night") {
     SurveyDay day{.now = utc("2026-03-03T12:00:00Z")};
     CHECK(begin_of(day) == utc("2026-03-02T12:00:00Z"));
     day.stays = {stay("2026-03-01T01:00:00Z"), stay("2026-03-02T00:10:00Z"),
@@ -134,7 +131,7 @@ TEST_CASE("a day begins twelve hours before the first stay after the last night"
     CHECK(begin_of(day) == utc("2026-03-02T21:00:00Z"));
 }
 
-TEST_CASE("a bundle has a survey file for the files that there are", "[daemon][bundle]") {
+TEST_CASE("a bundle has a survey file for the files that there are") {
     const test::TemporaryDirectory folder;
     SurveyDay day{.root = folder.path(),
                   .station = "XX_A351",

@@ -1,7 +1,5 @@
 #include "daemon/bundle/recorded_files.hpp"
 
-#include <algorithm>
-
 #include "protocol/core/utc_time.hpp"
 #include "tests/unit/journal/segment_fixture.hpp"
 
@@ -24,8 +22,7 @@ std::string text_of(const journal::Bytes& bytes) {
 
 }  // namespace
 
-TEST_CASE("the files of the days from an instant on are found, archive before journal",
-          "[daemon][bundle]") {
+TEST_CASE("the files of the days from an instant on are found, archive before journal") {
     const test::TemporaryDirectory root;
     const std::string segment = text_of(journal::segment_of(test::one_of_each()));
     for (const char* name : {"archive/2026/XX/A351/BNZ.D/XX.A351.00.BNZ.D.2026.059",
@@ -53,8 +50,7 @@ TEST_CASE("the files of the days from an instant on are found, archive before jo
     CHECK(recorded_files(root.path() / "nothing", kFrom).empty());
 }
 
-TEST_CASE("of a file that is being appended only whole records, lines and chunks are taken",
-          "[daemon][bundle]") {
+TEST_CASE("of a file that is being appended only whole records, lines and chunks are taken") {
     const test::TemporaryDirectory root;
     const std::string segment = text_of(journal::segment_of(test::one_of_each()));
     const std::string log = std::string(5000, 'a') + "\n{}\n";
@@ -76,7 +72,7 @@ TEST_CASE("of a file that is being appended only whole records, lines and chunks
     CHECK(recorded_files(root.path(), kFrom).empty());
 }
 
-TEST_CASE("a segment that is compressed or removed meanwhile is still packed", "[daemon][bundle]") {
+TEST_CASE("a segment that is compressed or removed meanwhile is still packed") {
     const test::TemporaryDirectory root;
     const auto file = root.write("journal/00000005_20260301T130000Z.a351j",
                                  text_of(journal::segment_of(test::one_of_each())));
@@ -89,7 +85,7 @@ TEST_CASE("a segment that is compressed or removed meanwhile is still packed", "
     CHECK(files[0].read(0, files[0].size) == before);
 }
 
-TEST_CASE("a folder or a pipe in place of a recorded file is refused", "[daemon][bundle]") {
+TEST_CASE("a folder or a pipe in place of a recorded file is refused") {
     const test::TemporaryDirectory root;
     std::filesystem::create_directories(root.path() / "metadata/station.xml");
     CHECK_THROWS_AS(recorded_files(root.path(), kFrom), std::system_error);

@@ -9,8 +9,7 @@
 
 namespace a351::daemon::identify {
 
-TEST_CASE("the file to be sent has the report, each register and each byte with its arrival",
-          "[identify]") {
+TEST_CASE("the file to be sent has the report, each register and each byte with its arrival") {
     Observation seen = MadeUpSensor{}.observe();
     seen.registers[1].value.reset();
     const Report report = report_on(seen, expected_a351());
@@ -29,8 +28,7 @@ TEST_CASE("the file to be sent has the report, each register and each byte with 
     CHECK(after_s == Approx(2499 / 50.0));
 }
 
-TEST_CASE("the name of the files has no character that a name of a profile must not have",
-          "[identify]") {
+TEST_CASE("the name of the files has no character that a name of a profile must not have") {
     Observation seen = MadeUpSensor{}.observe();
     CHECK(file_stem(seen) == "identify-00000042-20260301T120000Z");
     seen.device.serial_number = std::string("../1\0\n\"8", 8);
@@ -39,7 +37,7 @@ TEST_CASE("the name of the files has no character that a name of a profile must 
     CHECK(file_stem(seen) == "identify-unknown-20260301T120000Z");
 }
 
-TEST_CASE("a profile that was made is written beside the file", "[identify]") {
+TEST_CASE("a profile that was made is written beside the file") {
     const test::TemporaryDirectory folder;
     const Observation seen = MadeUpSensor{}.observe();
     Report report = report_on(seen, expected_a351());

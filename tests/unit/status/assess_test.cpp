@@ -16,7 +16,7 @@ Status healthy() {
 
 }  // namespace
 
-TEST_CASE("a sampling link with a good clock has the level good", "[daemon][assess]") {
+TEST_CASE("a sampling link with a good clock has the level good, and each trouble is named") {
     Status status = healthy();
     LinkStatus link;
     link.state = LinkStatus::State::sampling;
@@ -26,11 +26,14 @@ TEST_CASE("a sampling link with a good clock has the level good", "[daemon][asse
     CHECK(status.level == Status::Level::good);
     CHECK(status.reasons.empty());
     CHECK(status.serial_number == "00000042");
-}
 
-TEST_CASE("each trouble raises the status level and is named", "[daemon][assess]") {
-    Status status = healthy();
-    LinkStatus link;
+    status = healthy();
+    link.waits_for_journal = true;
+    fill(status, link);
+    CHECK(status.level == Status::Level::warning);
+
+    status = healthy();
+    link = {};
     link.state = LinkStatus::State::searching;
     link.trouble = "/dev/x: not plugged in";
     fill(status, link);
@@ -41,48 +44,31 @@ TEST_CASE("each trouble raises the status level and is named", "[daemon][assess]
     status.timing_state = timing::State::unlocked;
     assess(status);
     CHECK(status.level == Status::Level::warning);
-
-    status = healthy();
-    link.state = LinkStatus::State::sampling;
-    link.waits_for_journal = true;
-    fill(status, link);
-    CHECK(status.level == Status::Level::warning);
 }
 
-TEST_CASE("a sensor that had stopped is a warning for an hour", "[daemon][assess]") {
-    for (const int minutes : {-1, 0, 59, 60}) {
-        Status status = healthy();
-        status.started_again = *parse_rfc3339("2026-03-14T12:00:00Z");
-        status.now = *status.started_again + std::chrono::minutes(minutes);
-        assess(status);
-        REQUIRE(status.reasons.size() == (minutes == 0 || minutes == 59 ? 1 : 0));
-        if (status.reasons.empty()) continue;
-        CHECK(status.level == Status::Level::warning);
-        CHECK_THAT(status.reasons[0].english(), StartsWith("the sensor had stopped"));
+TEST_CASE("a sensor that had stopped, and another sensor, are warnings for an hour") {
+    const UtcTime noon = *parse_rfc3339("2026-03-14T12:00:00Z");
+    for (const bool is_other : {false, true}) {
+        for (const int minutes : {-1, 0, 59, 60, 61}) {
+            Status status = healthy();
+            if (is_other)
+                status.unit_change = UnitChange{noon, "00000001", std::string("0000\x01") + "777"};
+            else
+                status.started_again = noon;
+            status.now = noon + std::chrono::minutes(minutes);
+            assess(status);
+            CAPTURE(is_other, minutes);
+            REQUIRE(status.reasons.size() == (minutes == 0 || minutes == 59 ? 1 : 0));
+            if (status.reasons.empty()) continue;
+            CHECK(status.level == Status::Level::warning);
+            CHECK_THAT(status.reasons[0].english(),
+                       ContainsSubstring(is_other ? "2026-03-14T12:00:00Z: 0000?777 after 00000001"
+                                                  : "the sensor had stopped"));
+        }
     }
 }
 
-TEST_CASE("another sensor is a warning for an hour", "[daemon][assess]") {
-    Status status = healthy();
-    const UtcTime noon = *parse_rfc3339("2026-03-14T12:00:00Z");
-    status.unit_change = UnitChange{noon, "00000001",
-                                    "0000\x01"
-                                    "777"};
-    status.now = noon + std::chrono::minutes(59);
-    assess(status);
-    REQUIRE(status.reasons.size() == 1);
-    CHECK(status.level == Status::Level::warning);
-    CHECK_THAT(status.reasons[0].english(),
-               ContainsSubstring("2026-03-14T12:00:00Z: 0000?777 after 00000001"));
-    status = healthy();
-    status.unit_change = UnitChange{noon, "00000001", "00000777"};
-    status.now = noon + std::chrono::minutes(61);
-    assess(status);
-    CHECK(status.reasons.empty());
-}
-
-TEST_CASE("a start-up test that was not passed is named with its remedy, by seriousness",
-          "[daemon][assess]") {
+TEST_CASE("a start-up test that was not passed is named with its remedy, by seriousness") {
     LinkStatus link;
     link.state = LinkStatus::State::sampling;
     for (const auto& [result, level] :
@@ -108,7 +94,7 @@ TEST_CASE("a start-up test that was not passed is named with its remedy, by seri
     }
 }
 
-TEST_CASE("another baud rate is reported of a sensor that answers only", "[daemon][assess]") {
+TEST_CASE("another baud rate is reported of a sensor that answers only") {
     LinkStatus link;
     link.baud = 230400;
     link.configured_baud = 460800;
@@ -121,7 +107,7 @@ TEST_CASE("another baud rate is reported of a sensor that answers only", "[daemo
     }
 }
 
-TEST_CASE("samples from the future are a warning with the remedy", "[daemon][assess]") {
+TEST_CASE("samples from the future are a warning with the remedy") {
     Status status = healthy();
     status.now = *parse_rfc3339("2026-03-14T08:00:00Z");
     status.last_sample = status.now + std::chrono::seconds(4);
@@ -135,39 +121,34 @@ TEST_CASE("samples from the future are a warning with the remedy", "[daemon][ass
     CHECK(status.level == Status::Level::warning);
 }
 
-TEST_CASE("a step of the clock is a warning for an hour, and an overlap is announced",
-          "[daemon][assess]") {
-    Status status = healthy();
+TEST_CASE("a step of the clock is a warning for an hour, and an overlap is announced") {
     const UtcTime noon = *parse_rfc3339("2026-03-14T12:00:00Z");
-    status.clock_step = ClockStep{noon, noon + std::chrono::hours(1)};
-    status.now = status.clock_step->after + std::chrono::minutes(59);
-    assess(status);
-    REQUIRE(status.reasons.size() == 1);
-    CHECK_THAT(status.reasons[0].english(),
+    const ClockStep ahead{noon, noon + std::chrono::hours(1)};
+    const auto assessed = [](const ClockStep& step, UtcTime now) {
+        Status status = healthy();
+        status.clock_step = step;
+        status.now = now;
+        assess(status);
+        return status;
+    };
+    const Status within = assessed(ahead, ahead.after + std::chrono::minutes(59));
+    REQUIRE(within.reasons.size() == 1);
+    CHECK_THAT(within.reasons[0].english(),
                ContainsSubstring("set ahead by 3600.0 s, from 2026-03-14T12:00:00.0Z to "
                                  "2026-03-14T13:00:00.0Z") &&
                    !ContainsSubstring("twice"));
-    CHECK(status.level == Status::Level::warning);
+    CHECK(within.level == Status::Level::warning);
+    CHECK(assessed(ahead, ahead.after + std::chrono::minutes(61)).reasons.empty());
 
-    status = healthy();
-    status.clock_step = ClockStep{noon, noon - std::chrono::seconds(80)};
-    status.now = noon;
-    assess(status);
-    REQUIRE(status.reasons.size() == 1);
-    CHECK_THAT(status.reasons[0].english(),
+    const Status back = assessed({noon, noon - std::chrono::seconds(80)}, noon);
+    REQUIRE(back.reasons.size() == 1);
+    CHECK_THAT(back.reasons[0].english(),
                ContainsSubstring("set back by 80.0 s") &&
                    ContainsSubstring("the times from 2026-03-14T11:58:40.0Z to "
                                      "2026-03-14T12:00:00.0Z occur twice"));
-
-    status = healthy();
-    status.clock_step = ClockStep{noon, noon + std::chrono::hours(1)};
-    status.now = status.clock_step->after + std::chrono::minutes(61);
-    assess(status);
-    CHECK(status.reasons.empty());
 }
 
-TEST_CASE("a clock that stays behind the recorded data is a warning until it is right",
-          "[daemon][assess]") {
+TEST_CASE("a clock that stays behind the recorded data is a warning until it is right") {
     Status status = healthy();
     const UtcTime noon = *parse_rfc3339("2026-03-14T12:00:00Z");
     status.clock_step = ClockStep{noon, noon - std::chrono::hours(20)};
@@ -189,8 +170,7 @@ TEST_CASE("a clock that stays behind the recorded data is a warning until it is 
     CHECK(passed.reasons.empty());
 }
 
-TEST_CASE("a clock that was never synchronised is one warning, however its uncertainty grows",
-          "[daemon][assess]") {
+TEST_CASE("a clock that was never synchronised is one warning, however its uncertainty grows") {
     Status status = healthy();
     status.timing_uncertainty = std::chrono::seconds(14);
     assess(status);
@@ -212,8 +192,7 @@ TEST_CASE("a clock that was never synchronised is one warning, however its uncer
     CHECK(synchronised.reasons.empty());
 }
 
-TEST_CASE("an oven that is not enabled is no trouble, an oven that does not answer is a warning",
-          "[daemon][assess]") {
+TEST_CASE("an oven that is not enabled is no trouble, an oven that does not answer is a warning") {
     OvenLinkStatus link;
     const auto reasons = [&link] {
         Status status = healthy();
@@ -240,16 +219,13 @@ TEST_CASE("an oven that is not enabled is no trouble, an oven that does not answ
     link.trouble = "no answer in time";
     CHECK(reasons() == Reasons{"oven: silent; check the controller's cable (sensor data are not "
                                "affected)"});
-}
-
-TEST_CASE("the reasons of an outer oven name it", "[daemon][assess]") {
     Status status = healthy();
     status.outer_oven = OvenLinkStatus{};
     assess(status);
-    CHECK(status.reasons == std::vector<text::Message>{"outer oven: searching: not asked yet"});
+    CHECK(status.reasons == Reasons{"outer oven: searching: not asked yet"});
 }
 
-TEST_CASE("the polls of the oven are counted by their outcome", "[daemon][assess]") {
+TEST_CASE("the polls of the oven are counted by their outcome") {
     OvenLinkStatus link;
     for (std::size_t i = 0; i < link.polls.size(); ++i) link.polls.at(i) = 10 + i;
     CHECK(polls_by_outcome(link) == std::map<std::string, std::uint64_t>{{"answered", 10},
@@ -261,44 +237,37 @@ TEST_CASE("the polls of the oven are counted by their outcome", "[daemon][assess
                                                                          {"no_port", 16}});
 }
 
-TEST_CASE("a rate measured over a day is compared with the declared one", "[daemon][assess]") {
-    Status status = healthy();
-    status.measured_rate = {Hertz(50.0006), 0.05, std::chrono::hours(24)};
-    assess(status);
-    CHECK(status.level == Status::Level::good);
-    CHECK(status.rate_advice ==
+TEST_CASE("a rate measured over a day is compared with the declared one") {
+    const auto assessed = [](double measured_hz, double uncertainty_ppm, int hours,
+                             std::optional<double> declared_hz = {}) {
+        Status status = healthy();
+        status.measured_rate = {Hertz(measured_hz), uncertainty_ppm, std::chrono::hours(hours)};
+        status.declared_rate_hz = declared_hz;
+        assess(status);
+        return status;
+    };
+    const Status undeclared = assessed(50.0006, 0.05, 24);
+    CHECK(undeclared.level == Status::Level::good);
+    CHECK(undeclared.rate_advice ==
           "measured over a day: set declared_rate_hz = 50.000600 in [storage]");
-
-    status = healthy();
-    status.measured_rate = {Hertz(50.0006), 0.05, std::chrono::hours(24)};
-    status.declared_rate_hz = 50.000612;  // off by 0.24 ppm, of which 0.05 may be chance
-    assess(status);
-    CHECK(status.rate_advice.empty());
-    CHECK(status.level == Status::Level::good);
-    status.declared_rate_hz = 50.000613;
-    assess(status);
-    CHECK(status.level == Status::Level::warning);
-    CHECK(status.rate_advice.english().find("-0.26 ppm") != std::string::npos);
+    // Off by 0.24 ppm, of which 0.05 may be chance.
+    const Status near = assessed(50.0006, 0.05, 24, 50.000612);
+    CHECK(near.rate_advice.empty());
+    CHECK(near.level == Status::Level::good);
+    const Status off = assessed(50.0006, 0.05, 24, 50.000613);
+    CHECK(off.level == Status::Level::warning);
+    CHECK(off.rate_advice.english().find("-0.26 ppm") != std::string::npos);
     // The reason is the key of the log, so that it has no number that varies.
-    Status later = healthy();
-    later.measured_rate = {Hertz(50.0005), 0.05, std::chrono::hours(24)};
-    later.declared_rate_hz = 50.000613;
-    assess(later);
-    CHECK(later.reasons == status.reasons);
+    CHECK(assessed(50.0005, 0.05, 24, 50.000613).reasons == off.reasons);
 
-    status = healthy();
-    SECTION("not if it was measured for less than a day") {
-        status.measured_rate = {Hertz(51.0), 0.05, std::chrono::hours(22)};
-    }
-    SECTION("not if its uncertainty is too large") {
-        status.measured_rate = {Hertz(51.0), 0.21, std::chrono::hours(24)};
-    }
-    SECTION("not without a measured rate") {}
-    assess(status);
-    CHECK(status.rate_advice.empty());
+    CHECK(assessed(51.0, 0.05, 22).rate_advice.empty());  // Less than a day.
+    CHECK(assessed(51.0, 0.21, 24).rate_advice.empty());  // Too uncertain.
+    Status unmeasured = healthy();
+    assess(unmeasured);
+    CHECK(unmeasured.rate_advice.empty());
 }
 
-TEST_CASE("a clock that was not set is said once, however many records wait", "[daemon][assess]") {
+TEST_CASE("a clock that was not set is said once, however many records wait") {
     Status first = healthy(), later = healthy();
     first.counters.records_withheld = 4;
     later.counters.records_withheld = 20;
@@ -308,7 +277,7 @@ TEST_CASE("a clock that was not set is said once, however many records wait", "[
     CHECK(first.reasons == later.reasons);
 }
 
-TEST_CASE("the calibration of another unit is a warning", "[daemon][assess]") {
+TEST_CASE("the calibration of another unit is a warning") {
     Status status = healthy();
     status.calibrated_serial_number = "00000042";
     assess(status);
@@ -324,7 +293,7 @@ TEST_CASE("the calibration of another unit is a warning", "[daemon][assess]") {
           "another unit's behaviour; check survey.calibration");
 }
 
-TEST_CASE("values of the sensor that are not believable are a fault", "[daemon][assess]") {
+TEST_CASE("values of the sensor that are not believable are a fault") {
     Status status = healthy();
     status.sensor_troubles = {"the acceleration reads 0.50 g"};
     assess(status);
@@ -332,7 +301,7 @@ TEST_CASE("values of the sensor that are not believable are a fault", "[daemon][
     CHECK(status.reasons == status.sensor_troubles);
 }
 
-TEST_CASE("a rate that is 2 % off is a fault in real time", "[daemon][assess]") {
+TEST_CASE("a rate that is 2 % off is a fault in real time") {
     for (const bool is_in_real_time : {true, false}) {
         Status status = healthy();
         status.is_in_real_time = is_in_real_time;

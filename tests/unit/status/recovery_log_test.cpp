@@ -4,14 +4,12 @@
 #include <spdlog/spdlog.h>
 
 #include <sstream>
-#include "tests/support/catch.hpp"
-
 #include "daemon/status/status.hpp"
+#include "tests/support/catch.hpp"
 
 using namespace a351;
 
-TEST_CASE("the log of a recovery names every damage, with its file and offset",
-          "[daemon][recovery_log]") {
+TEST_CASE("the log of a recovery names every damage, with its file and offset") {
     std::ostringstream out;
     spdlog::logger log("test", std::make_shared<spdlog::sinks::ostream_sink_st>(out));
     log.set_pattern("%l: %v");
@@ -43,8 +41,7 @@ TEST_CASE("the log of a recovery names every damage, with its file and offset",
     }
 }
 
-TEST_CASE("the service manager shows the state of the link and the first reason",
-          "[daemon][status]") {
+TEST_CASE("the service manager shows the state of the link and the first reason") {
     daemon::status::Status status;
     status.link_state = "sampling";
     CHECK(daemon::status::brief(status) == "sampling");

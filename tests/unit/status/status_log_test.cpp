@@ -32,8 +32,7 @@ struct Fixture {
 }  // namespace
 
 TEST_CASE_METHOD(
-    Fixture, "a trouble is logged when it begins, once a minute with its count, and when it ends",
-    "[daemon][status_log]") {
+    Fixture, "a trouble is logged when it begins, once a minute with its count, and when it ends") {
     Status bad;
     bad.reasons = {"no disk"};
     CHECK(said(bad, 0) == "no disk\n");
@@ -45,8 +44,7 @@ TEST_CASE_METHOD(
     CHECK(said(Status(), 63).empty());
 }
 
-TEST_CASE_METHOD(Fixture, "a reason that names another file each time is logged as one",
-                 "[daemon][status_log]") {
+TEST_CASE_METHOD(Fixture, "a reason that names another file each time is logged as one") {
     Status status;
     const auto refuse = [&](int segment) {
         status.reasons = {"journal: open data/journal/0000000" + std::to_string(segment) +
@@ -62,8 +60,7 @@ TEST_CASE_METHOD(Fixture, "a reason that names another file each time is logged 
           "resolved: journal: open data/journal/00000009.a351j: Read-only file system\n");
 }
 
-TEST_CASE_METHOD(Fixture, "a rising counter is logged with its increase, at most once a minute",
-                 "[daemon][status_log]") {
+TEST_CASE_METHOD(Fixture, "a rising counter is logged with its increase, at most once a minute") {
     Status status;
     CHECK(said(status, 0).empty());
     status.counters.gaps = 2;
@@ -75,8 +72,7 @@ TEST_CASE_METHOD(Fixture, "a rising counter is logged with its increase, at most
 }
 
 TEST_CASE_METHOD(Fixture,
-                 "the state of the oven is logged when it changes, and its failed polls by kind",
-                 "[daemon][status_log]") {
+                 "the state of the oven is logged when it changes, and its failed polls by kind") {
     Status status;
     CHECK(said(status, 0).empty());
     OvenLinkStatus& oven = status.oven.emplace();
@@ -94,8 +90,7 @@ TEST_CASE_METHOD(Fixture,
 }
 
 TEST_CASE_METHOD(Fixture,
-                 "the state of the disk reserve is logged when it changes, with the reason",
-                 "[daemon][status_log]") {
+                 "the state of the disk reserve is logged when it changes, with the reason") {
     Status status;
     status.disk_reserve = "present";
     CHECK(said(status, 0) == "reserve for a full disk: present\n");
