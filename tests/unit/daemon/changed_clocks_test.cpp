@@ -8,9 +8,8 @@
 
 #include <atomic>
 #include <ctime>
-#include "tests/support/catch.hpp"
-
 #include "daemon/source/sensor_link.hpp"
+#include "tests/support/catch.hpp"
 #include "tests/unit/daemon/fake_sensor.hpp"
 
 namespace {
@@ -86,8 +85,7 @@ struct Sleeper {
 
 }  // namespace
 
-TEST_CASE("each sleep of the host puts one clock reading before the bytes received after it",
-          "[daemon][sensor_link]") {
+TEST_CASE("each sleep of the host puts one clock reading before the bytes received after it") {
     Sleeper host;
     host.link.start();
     host.wait_for_frames();
@@ -109,8 +107,7 @@ TEST_CASE("each sleep of the host puts one clock reading before the bytes receiv
     CHECK(host.is_in_order);
 }
 
-TEST_CASE("a sleep before the first byte of a session is reported after the session header",
-          "[daemon][sensor_link]") {
+TEST_CASE("a sleep before the first byte of a session is reported after the session header") {
     Sleeper host;
     host.sensor.is_idle = true;
     host.link.start();
@@ -127,8 +124,8 @@ TEST_CASE("a sleep before the first byte of a session is reported after the sess
     host.link.stop();
 }
 
-TEST_CASE("a clock reading from before a leap second announces it, even if the leap interrupts it",
-          "[daemon][host_clock]") {
+TEST_CASE(
+    "a clock reading from before a leap second announces it, even if the leap interrupts it") {
     const HostClock clock;
     int before = 0, after = 0;
     for (int calls = 0; calls < 30; ++calls) {

@@ -8,7 +8,6 @@
 #include <mutex>
 #include <string>
 #include <thread>
-#include <vector>
 
 #include "protocol/wire/burst_frame.hpp"
 #include "tests/unit/daemon/pty.hpp"

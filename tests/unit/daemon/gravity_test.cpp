@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include "tests/support/catch.hpp"
-
 #include "tests/support/temporary_directory.hpp"
 
 using namespace a351;
@@ -33,7 +32,7 @@ nlohmann::json parsed(const GravitySoFar& gravity) {
 
 }  // namespace
 
-TEST_CASE("each failure of the corrector has its code and cause", "[gravity]") {
+TEST_CASE("each failure of the corrector has its code and cause") {
     const auto reasons = [](std::vector<std::string> command) {
         GravitySoFar gravity({.command = std::move(command),
                               .limits = {.time = 10min, .cpu_s = 1, .output_bytes = 100}});
@@ -56,7 +55,7 @@ TEST_CASE("each failure of the corrector has its code and cause", "[gravity]") {
           "no_corrector: there is no program /nowhere/a351-correct");
 }
 
-TEST_CASE("the corrector runs in the background and within limits", "[gravity]") {
+TEST_CASE("the corrector runs in the background and within limits") {
     // The 41st word of stat is the scheduling policy: 5 is SCHED_IDLE.
     const std::string script =
         "printf '{\"reason\":null,\"is\":\"%s %s %s\"}' $(cut -d' ' -f41 /proc/$$/stat) "
@@ -70,8 +69,7 @@ TEST_CASE("the corrector runs in the background and within limits", "[gravity]")
 #endif
 }
 
-TEST_CASE("the corrector runs after a change, again later, and regularly while a stay runs",
-          "[gravity]") {
+TEST_CASE("the corrector runs after a change, again later, and regularly while a stay runs") {
     const test::TemporaryDirectory folder;
     const auto file = folder.path() / "runs";
     const auto runs = [&] { return content_of(file).size(); };
@@ -93,7 +91,7 @@ TEST_CASE("the corrector runs after a change, again later, and regularly while a
     gravity.stop();
 }
 
-TEST_CASE("a failure keeps the last figures, is said once, and a success ends it", "[gravity]") {
+TEST_CASE("a failure keeps the last figures, is said once, and a success ends it") {
     const test::TemporaryDirectory folder;
     const auto answer =
         folder.write("answer", "{\"reason\":null,\"reason_parts\":[[\"old\",[]]],\"stays\":[1]}");
@@ -117,7 +115,7 @@ TEST_CASE("a failure keeps the last figures, is said once, and a success ends it
     CHECK(parsed(gravity).at("reason").is_null());
 }
 
-TEST_CASE("a daemon that stops ends the corrector at once", "[gravity]") {
+TEST_CASE("a daemon that stops ends the corrector at once") {
     GravitySoFar gravity({.command = {"/bin/sleep", "100"}});
     gravity.start();
     gravity.note_change(true);
@@ -127,18 +125,7 @@ TEST_CASE("a daemon that stops ends the corrector at once", "[gravity]") {
     CHECK(std::chrono::steady_clock::now() - begin < 2s);
 }
 
-TEST_CASE("without a command the document has the reason", "[gravity]") {
-    GravitySoFar gravity({.command = {}, .reason = "no_sites"});
-    gravity.start();
-    gravity.note_change(true);
-    CHECK(parsed(gravity).at("reason") == "no_sites");
-    CHECK(parsed(gravity).at("reason_text") == "the configuration names no table of sites");
-    CHECK(parsed(gravity).at("reason_parts").is_array());
-    CHECK(parsed(gravity).at("stays").empty());
-}
-
-TEST_CASE("another list of sites is used at once, and figures of the old one are not shown",
-          "[gravity]") {
+TEST_CASE("another list of sites is used at once, and figures of the old one are not shown") {
     const auto says = [](const char* stays) {
         return GravityOptions{
             .command = {"/bin/echo", std::string("{\"reason\":null,\"stays\":") + stays + "}"}};
@@ -149,6 +136,10 @@ TEST_CASE("another list of sites is used at once, and figures of the old one are
     GravitySoFar gravity({.command = {}, .reason = "no_sites"});
     gravity.start();
     gravity.note_change(false);
+    CHECK(parsed(gravity).at("reason") == "no_sites");
+    CHECK(parsed(gravity).at("reason_text") == "the configuration names no table of sites");
+    CHECK(parsed(gravity).at("reason_parts").is_array());
+    CHECK(parsed(gravity).at("stays").empty());
     gravity.use(says("[1]"));
     CHECK(comes_true([&] { return stays_of(gravity) == "[1]"; }));
     gravity.use(says("[2]"));
@@ -158,8 +149,7 @@ TEST_CASE("another list of sites is used at once, and figures of the old one are
     CHECK(stays_of(gravity) == "[]");
 }
 
-TEST_CASE("the command has the files of the survey, and the reason says why there is none",
-          "[gravity]") {
+TEST_CASE("the command has the files of the survey, and the reason says why there is none") {
     const auto command = options_for("/usr/bin/a351-correct", {"data", "sites.csv", {}}, 3min);
     CHECK(command.every == 3min);
     CHECK(command.reason.empty());

@@ -7,9 +7,8 @@
 #include <filesystem>
 #include <mutex>
 #include <vector>
-#include "tests/support/catch.hpp"
-
 #include "daemon/source/port.hpp"
+#include "tests/support/catch.hpp"
 #include "tests/support/temporary_directory.hpp"
 #include "tests/unit/daemon/fake_controller.hpp"
 #include "tests/unit/daemon/fake_sensor.hpp"
@@ -61,8 +60,7 @@ public:
 
 }  // namespace
 
-TEST_CASE("a controller is polled for its values, once for its decimals and for nothing else",
-          "[daemon][oven_link]") {
+TEST_CASE("a controller is polled for its values, once for its decimals and for nothing else") {
     OvenRig rig;
     CHECK(rig.link.status().is_stale);
     CHECK_FALSE(rig.link.status().age);
@@ -94,8 +92,7 @@ TEST_CASE("a controller is polled for its values, once for its decimals and for 
     CHECK(rig.controller.other_requests == 0);
 }
 
-TEST_CASE("each kind of failed answer has its own counter, and the next answer is accepted",
-          "[daemon][oven_link]") {
+TEST_CASE("each kind of failed answer has its own counter, and the next answer is accepted") {
     const auto [manner, outcome] =
         GENERATE(table<Manner, OvenOutcome>({{Manner::mute, OvenOutcome::timed_out},
                                              {Manner::half, OvenOutcome::timed_out},
@@ -128,8 +125,7 @@ TEST_CASE("each kind of failed answer has its own counter, and the next answer i
     CHECK(rig.controller.other_requests == static_cast<int>(refused));
 }
 
-TEST_CASE("one lost answer does not change the state, but a last answer that is too old does",
-          "[daemon][oven_link]") {
+TEST_CASE("one lost answer does not change the state, but a last answer that is too old does") {
     OvenRig rig;
     rig.link.start();
     REQUIRE(rig.reaches(OvenOutcome::answered));
@@ -146,7 +142,7 @@ TEST_CASE("one lost answer does not change the state, but a last answer that is 
     CHECK(status.values->process_value == DegC(42.5));
 }
 
-TEST_CASE("the controller's own decimals override the configured ones", "[daemon][oven_link]") {
+TEST_CASE("the controller's own decimals override the configured ones") {
     OvenRig rig;
     rig.controller.decimals = 2;
     rig.link.start();
@@ -157,8 +153,7 @@ TEST_CASE("the controller's own decimals override the configured ones", "[daemon
 }
 
 TEST_CASE(
-    "without usable decimals of the controller the configured ones apply, and no value is lost",
-    "[daemon][oven_link]") {
+    "without usable decimals of the controller the configured ones apply, and no value is lost") {
     OvenRig rig;
     SECTION("no such register") { rig.controller.decimals_manner = Manner::refused; }
     SECTION("an impossible number") { rig.controller.decimals = 425; }
@@ -171,8 +166,7 @@ TEST_CASE(
     for (const OvenChunk& poll : rig.polls()) CHECK(poll.decimals == 1);
 }
 
-TEST_CASE("a controller in four-byte mode is read, and recorded like one in two-byte mode",
-          "[daemon][oven_link]") {
+TEST_CASE("a controller in four-byte mode is read, and recorded like one in two-byte mode") {
     OvenRig rig;
     rig.controller.is_four_byte = true;
     rig.link.start();
@@ -190,7 +184,7 @@ TEST_CASE("a controller in four-byte mode is read, and recorded like one in two-
     CHECK(rig.link.status().values->process_value == DegC(42.5));
 }
 
-TEST_CASE("a link that is being stopped sends no second request", "[daemon][oven_link]") {
+TEST_CASE("a link that is being stopped sends no second request") {
     bool is_left_alone = false;
     // Several tries, because a busy host may stop it only after the answer.
     for (int i = 0; i < 5 && !is_left_alone; ++i) {
@@ -206,8 +200,7 @@ TEST_CASE("a link that is being stopped sends no second request", "[daemon][oven
     CHECK(is_left_alone);
 }
 
-TEST_CASE("a controller that comes back under another name is found through its link",
-          "[daemon][oven_link]") {
+TEST_CASE("a controller that comes back under another name is found through its link") {
     const test::TemporaryDirectory directory;
     const auto port = directory.path() / "oven";
     OvenRig rig(port);
@@ -230,7 +223,7 @@ TEST_CASE("a controller that comes back under another name is found through its 
     rig.link.stop();
 }
 
-TEST_CASE("a port is used by one link at a time", "[daemon][oven_link]") {
+TEST_CASE("a port is used by one link at a time") {
     OvenRig rig;
     const auto sensor = open_port({rig.controller.path(), {}}, 460800);
     rig.link.start();
@@ -246,7 +239,7 @@ TEST_CASE("a port is used by one link at a time", "[daemon][oven_link]") {
     CHECK_THROWS_AS(open_port({other.path(), {}}, 460800), PortError);
 }
 
-TEST_CASE("leftover bytes of one answer are not taken for the next answer", "[daemon][oven_link]") {
+TEST_CASE("leftover bytes of one answer are not taken for the next answer") {
     FakeController controller;
     ModbusLine line({.port = controller.path(), .parity = 'N'});
     controller.manner = Manner::babble;  // libmodbus reads eight of its 64 bytes.
@@ -257,8 +250,7 @@ TEST_CASE("leftover bytes of one answer are not taken for the next answer", "[da
           oven::kMonitorCount);
 }
 
-TEST_CASE("opening a port turns its echo off, also for the time after it is closed",
-          "[daemon][oven_link]") {
+TEST_CASE("opening a port turns its echo off, also for the time after it is closed") {
     Pty pty;
     const int host = open(pty.path().c_str(), O_RDWR | O_NOCTTY);
     termios settings{};
@@ -270,8 +262,7 @@ TEST_CASE("opening a port turns its echo off, also for the time after it is clos
     CHECK((settings.c_lflag & (ECHO | ICANON)) == 0);
 }
 
-TEST_CASE("a path that is not a port, and a port that does not accept the settings, are refused",
-          "[daemon][oven_link]") {
+TEST_CASE("a path that is not a port, and a port that does not accept the settings, are refused") {
     // A pseudo-terminal has no parity, and ignores a request for it without an error.
     const Pty pty;
     CHECK_NOTHROW(ModbusLine({.port = pty.path(), .parity = 'N'}));

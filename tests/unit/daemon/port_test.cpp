@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <vector>
 #include "tests/support/catch.hpp"
-
 #include "tests/support/temporary_directory.hpp"
 #include "tests/unit/daemon/pty.hpp"
 
@@ -41,7 +40,7 @@ std::ptrdiff_t open_files() {
 
 }  // namespace
 
-TEST_CASE("every byte value passes a port both ways", "[daemon][port]") {
+TEST_CASE("every byte value passes a port both ways") {
     Pty pty;
     const auto port = open_port({pty.path(), {}}, 460800);
     const auto sent = every_byte();
@@ -61,8 +60,7 @@ TEST_CASE("every byte value passes a port both ways", "[daemon][port]") {
     CHECK(received == sent);
 }
 
-TEST_CASE("a port left in cooked mode, with flow control and two stop bits, is set to raw 8N1",
-          "[daemon][port]") {
+TEST_CASE("a port left in cooked mode, with flow control and two stop bits, is set to raw 8N1") {
     Pty pty;
     const int before = open(pty.path().c_str(), O_RDWR | O_NOCTTY);
     termios settings{};
@@ -85,8 +83,7 @@ TEST_CASE("a port left in cooked mode, with flow control and two stop bits, is s
     CHECK(port->description().find("230400 baud") != std::string::npos);
 }
 
-TEST_CASE("a port that is in use is refused as locked, and free again after it is closed",
-          "[daemon][port]") {
+TEST_CASE("a port that is in use is refused as locked, and free again after it is closed") {
     Pty pty;
     auto port = open_port({pty.path(), {}}, 460800);
     CHECK(kind_of_refusal({pty.path(), {}}) == PortError::Kind::locked);
@@ -94,7 +91,7 @@ TEST_CASE("a port that is in use is refused as locked, and free again after it i
     CHECK_NOTHROW(open_port({pty.path(), {}}, 460800));
 }
 
-TEST_CASE("silence does not end a connection, but closing the other end does", "[daemon][port]") {
+TEST_CASE("silence does not end a connection, but closing the other end does") {
     Pty pty;
     const auto port = open_port({pty.path(), {}}, 460800);
     std::vector<std::byte> some(100);
@@ -106,8 +103,8 @@ TEST_CASE("silence does not end a connection, but closing the other end does", "
     CHECK_FALSE(port->write(some));
 }
 
-TEST_CASE("a port is found through links, and a missing port and a wrong file are different errors",
-          "[daemon][port]") {
+TEST_CASE(
+    "a port is found through links, and a missing port and a wrong file are different errors") {
     Pty pty;
     const test::TemporaryDirectory directory;
     const auto link = directory.path() / "sensor";
@@ -124,7 +121,7 @@ TEST_CASE("a port is found through links, and a missing port and a wrong file ar
     CHECK(open_files() == before);
 }
 
-TEST_CASE("the table of ports marks those that could be the sensor", "[port]") {
+TEST_CASE("the table of ports marks those that could be the sensor") {
     CHECK(port_table({{"/dev/ttyS0", {}, {}},
                       {"/dev/ttyUSB0", "/dev/serial/by-id/x", UsbAddress{0x0403, 0x6001, "A1"}}}) ==
           "PORT\tBY-ID\tUSB VID:PID:SERIAL\tREMARK\n"

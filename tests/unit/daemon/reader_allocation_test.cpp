@@ -4,9 +4,8 @@
 
 #include <filesystem>
 #include <set>
-#include "tests/support/catch.hpp"
-
 #include "daemon/source/sensor_link.hpp"
+#include "tests/support/catch.hpp"
 #include "tests/support/counted_allocations.hpp"
 #include "tests/unit/daemon/fake_sensor.hpp"
 
@@ -24,7 +23,7 @@ std::set<pid_t> threads() {
 using namespace a351;
 using namespace a351::daemon::source;
 
-TEST_CASE("the reader thread allocates no memory while it samples", "[daemon][sensor_link]") {
+TEST_CASE("the reader thread allocates no memory while it samples") {
     FakeSensor sensor;
     LinkOptions options;
     options.address.path = sensor.path();

@@ -4,9 +4,8 @@
 #include <cstdio>
 #include <filesystem>
 #include <vector>
-#include "tests/support/catch.hpp"
-
 #include "protocol/wire/burst_decoder.hpp"
+#include "tests/support/catch.hpp"
 #include "tests/support/temporary_directory.hpp"
 #include "tests/unit/daemon/fake_sensor.hpp"
 
@@ -25,6 +24,19 @@ LinkOptions options_for(const std::filesystem::path& path) {
     options.header.baud = options.baud;
     return options;
 }
+
+/// A fake sensor, and everything that a link to it needs.
+struct LinkRig {
+    FakeSensor sensor;
+    ReadQueue queue;
+    HostClock clock;
+    LinkOptions options = options_for(sensor.path());
+};
+
+/// Ten seconds of instrument time in one of real time.
+struct FastLinkRig : LinkRig {
+    FastLinkRig() { clock = HostClock(ClockScale{10.0, host_realtime(), host_realtime()}); }
+};
 
 /// Returns a stream whose last received frame is frame `count` / 80 - 1 of a FakeSensor, now.
 journal::StreamEnd known_stream(const LinkOptions& options, const HostClock& clock,
@@ -46,9 +58,7 @@ struct Received {
     explicit Received(ReadQueue& queue) {
         RawTime last;
         for (auto item = queue.front(); item; item = queue.front()) {
-            if (item->kind == ReadQueue::Kind::session) {
-                sessions.push_back(queue.take_session());
-            }
+            if (item->kind == ReadQueue::Kind::session) sessions.push_back(queue.take_session());
             auto& into = item->kind == ReadQueue::Kind::tx ? sent : bytes;
             into.insert(into.end(), item->bytes.begin(), item->bytes.end());
             if (item->kind == ReadQueue::Kind::rx) {
@@ -64,9 +74,8 @@ struct Received {
         wire::BurstDecoder decoder(wire::BurstLayout::recommended(), 80);
         std::span<const std::byte> input(bytes);
         while (const auto event = decoder.next(input)) {
-            if (const auto* frame = std::get_if<wire::BurstFrame>(&*event)) {
+            if (const auto* frame = std::get_if<wire::BurstFrame>(&*event))
                 frames.push_back(frame->values());
-            }
         }
         return frames;
     }
@@ -74,12 +83,10 @@ struct Received {
 
 }  // namespace
 
-TEST_CASE("the link configures the sensor, records from the first frame and stops it at the end",
-          "[daemon][sensor_link]") {
-    FakeSensor sensor;
-    ReadQueue queue;
-    const HostClock clock;
-    SensorLink link(options_for(sensor.path()), clock, queue);
+TEST_CASE_METHOD(
+    LinkRig,
+    "the link configures the sensor, records from the first frame and stops it at the end") {
+    SensorLink link(options, clock, queue);
     link.start();
     REQUIRE(eventually([&] { return sensor.frames_sent >= 20; }));
     CHECK(link.status().state == LinkStatus::State::sampling);
@@ -106,13 +113,10 @@ TEST_CASE("the link configures the sensor, records from the first frame and stop
     CHECK(frames.size() + 1 >= static_cast<std::size_t>(sensor.frames_sent));
 }
 
-TEST_CASE("a sensor that falls silent and lost its power is configured again, as a new session",
-          "[daemon][sensor_link]") {
-    FakeSensor sensor;
-    ReadQueue queue;
-    // Two seconds of silence in half a second of real time.
-    const HostClock clock(ClockScale{10.0, host_realtime(), host_realtime()});
-    SensorLink link(options_for(sensor.path()), clock, queue);
+TEST_CASE_METHOD(
+    FastLinkRig,
+    "a sensor that falls silent and lost its power is configured again, as a new session") {
+    SensorLink link(options, clock, queue);
     link.start();
     REQUIRE(eventually([&] { return sensor.frames_sent >= 5; }));
     sensor.is_mute = true;
@@ -128,14 +132,11 @@ TEST_CASE("a sensor that falls silent and lost its power is configured again, as
     CHECK(received.sessions[0].session != received.sessions[1].session);
 }
 
-TEST_CASE("a loose plug at the sensor costs the samples of the outage and no session",
-          "[daemon][sensor_link][adoption]") {
+TEST_CASE_METHOD(LinkRig,
+                 "a loose plug at the sensor costs the samples of the outage and no session") {
     // The outage ends while the link listens, configures, tries other baud rates, or waits.
     const std::chrono::milliseconds outage(GENERATE(2300, 3200, 5400, 9000));
-    FakeSensor sensor;
-    ReadQueue queue;
-    const HostClock clock;
-    SensorLink link(options_for(sensor.path()), clock, queue);
+    SensorLink link(options, clock, queue);
     link.start();
     REQUIRE(eventually([&] { return sensor.frames_sent >= 50; }));
     sensor.is_loose = true;
@@ -168,12 +169,9 @@ TEST_CASE("a loose plug at the sensor costs the samples of the outage and no ses
     CHECK(received.sessions[0].session == received.sessions[1].session);
 }
 
-TEST_CASE("a sensor whose bytes are no frames is configured again", "[daemon][sensor_link]") {
-    FakeSensor sensor;
+TEST_CASE_METHOD(FastLinkRig, "a sensor whose bytes are no frames is configured again") {
     sensor.does_babble = true;
-    ReadQueue queue;
-    const HostClock clock(ClockScale{10.0, host_realtime(), host_realtime()});
-    SensorLink link(options_for(sensor.path()), clock, queue);
+    SensorLink link(options, clock, queue);
     link.start();
     REQUIRE(eventually([&] { return link.status().stalls == 1; }));
     sensor.does_babble = false;
@@ -181,11 +179,8 @@ TEST_CASE("a sensor whose bytes are no frames is configured again", "[daemon][se
     link.stop();
 }
 
-TEST_CASE("a sensor whose rate was changed is configured again", "[daemon][sensor_link]") {
-    FakeSensor sensor;
-    ReadQueue queue;
-    const HostClock clock;
-    SensorLink link(options_for(sensor.path()), clock, queue);
+TEST_CASE_METHOD(LinkRig, "a sensor whose rate was changed is configured again") {
+    SensorLink link(options, clock, queue);
     link.start();
     REQUIRE(eventually([&] { return sensor.frames_sent >= 20; }));
     sensor.counts_per_frame = 40;
@@ -199,13 +194,9 @@ TEST_CASE("a sensor whose rate was changed is configured again", "[daemon][senso
     CHECK(Received(queue).sessions.size() == 2);
 }
 
-TEST_CASE("a sensor that answers but never sends a frame starts no session",
-          "[daemon][sensor_link]") {
-    FakeSensor sensor;
+TEST_CASE_METHOD(FastLinkRig, "a sensor that answers but never sends a frame starts no session") {
     sensor.is_idle = true;
-    ReadQueue queue;
-    const HostClock clock(ClockScale{10.0, host_realtime(), host_realtime()});
-    SensorLink link(options_for(sensor.path()), clock, queue);
+    SensorLink link(options, clock, queue);
     link.start();
     REQUIRE(eventually([&] { return link.status().stalls == 2; }));
     CHECK(link.status().sessions == 0);
@@ -213,8 +204,7 @@ TEST_CASE("a sensor that answers but never sends a frame starts no session",
     link.stop();
 }
 
-TEST_CASE("another device that talks is named once, however often it is asked",
-          "[daemon][sensor_link]") {
+TEST_CASE("another device that talks is named once, however often it is asked") {
     Pty pty;
     std::atomic<bool> is_over{false};
     std::thread receiver([&] {
@@ -245,12 +235,9 @@ TEST_CASE("another device that talks is named once, however often it is asked",
                ContainsSubstring("another device") && ContainsSubstring("sensor.port"));
 }
 
-TEST_CASE("a port that disappears is named and searched for until it is back",
-          "[daemon][sensor_link]") {
+TEST_CASE_METHOD(FastLinkRig, "a port that disappears is named and searched for until it is back") {
     const test::TemporaryDirectory directory;
     const auto name = directory.path() / "sensor";
-    ReadQueue queue;
-    const HostClock clock(ClockScale{10.0, host_realtime(), host_realtime()});
     SensorLink link(options_for(name), clock, queue);
     link.start();
     REQUIRE(eventually([&] { return link.status().state == LinkStatus::State::searching; }));
@@ -259,25 +246,23 @@ TEST_CASE("a port that disappears is named and searched for until it is back",
                name.string() + ": there is no such port; check the cable, and a351d --list-ports";
     }));
     {
-        FakeSensor sensor;
-        std::filesystem::create_symlink(sensor.path(), name);
-        REQUIRE(eventually([&] { return sensor.frames_sent >= 5; }));
+        FakeSensor unplugged;
+        std::filesystem::create_symlink(unplugged.path(), name);
+        REQUIRE(eventually([&] { return unplugged.frames_sent >= 5; }));
     }
     REQUIRE(eventually([&] { return link.status().ports_lost == 1; }));
-    const std::string unplugged =
+    const std::string said =
         "sensor unplugged: the port is gone (" + name.string() + "); plug the cable in again";
-    CHECK(link.status().trouble == unplugged);
+    CHECK(link.status().trouble == said);
     std::filesystem::remove(name);  // The system then has another reason, which is not shown.
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
-    CHECK(link.status().trouble == unplugged);
-    FakeSensor sensor;
+    CHECK(link.status().trouble == said);
     std::filesystem::create_symlink(sensor.path(), name);
     REQUIRE(eventually([&] { return link.status().sessions == 2; }));
     link.stop();
 }
 
-TEST_CASE("another instrument is refused by its serial number and stopped",
-          "[daemon][sensor_link]") {
+TEST_CASE("another instrument is refused by its serial number and stopped") {
     FakeSensor sensor("00000099");
     ReadQueue queue;
     const HostClock clock;
@@ -292,21 +277,14 @@ TEST_CASE("another instrument is refused by its serial number and stopped",
     CHECK(queue.fill() == 0);
 }
 
-TEST_CASE("a port that another process has open is refused at the start", "[daemon][sensor_link]") {
-    FakeSensor sensor;
+TEST_CASE_METHOD(LinkRig, "a port that another process has open is refused at the start") {
     const auto held = open_port({sensor.path(), {}}, 460800);
-    ReadQueue queue;
-    const HostClock clock;
-    SensorLink link(options_for(sensor.path()), clock, queue);
+    SensorLink link(options, clock, queue);
     CHECK_THROWS_AS(link.start(), PortError);
 }
 
-TEST_CASE("a stream that continues where the journal ended is adopted without a command",
-          "[daemon][sensor_link][adoption]") {
-    FakeSensor sensor;
-    ReadQueue queue;
-    const HostClock clock;
-    LinkOptions options = options_for(sensor.path());
+TEST_CASE_METHOD(LinkRig,
+                 "a stream that continues where the journal ended is adopted without a command") {
     options.expected_serial_number = "00000042";
     options.known = known_stream(options, clock, 0);
     sensor.start_sampling();
@@ -329,66 +307,45 @@ TEST_CASE("a stream that continues where the journal ended is adopted without a 
     CHECK(received.frames()[0] == FakeSensor::values(0));
 }
 
-TEST_CASE("a failed start-up test is reported until a later one is passed",
-          "[daemon][sensor_link]") {
-    FakeSensor sensor;
-    const HostClock clock;
-    LinkOptions options = options_for(sensor.path());
-    sensor.raise(wire::kDiagHardError);  // The test after the next reset is passed.
-    {
-        ReadQueue queue;
-        SensorLink link(options, clock, queue);
+TEST_CASE_METHOD(LinkRig, "a failed start-up test is reported until a later one is passed") {
+    using wire::StartUpTest;
+    /// Runs a link to its first session or adoption.  @return the header of the recorded session
+    const auto recorded = [&](bool is_adopted = false) {
+        ReadQueue reads;
+        SensorLink link(options, clock, reads);
+        if (options.known)
+            CHECK(link.status().start_up_test == options.known->header.start_up_test);
         link.start();
-        REQUIRE(eventually([&] { return link.status().sessions == 1; }));
-        CHECK(link.status().start_up_test == wire::StartUpTest::hard_error);
+        REQUIRE(eventually(
+            [&] { return (is_adopted ? link.status().adoptions : link.status().sessions) == 1; }));
         link.stop();
-        const Received received(queue);
+        const Received received(reads);
         REQUIRE(received.sessions.size() == 1);
-        CHECK(received.sessions[0].start_up_test == wire::StartUpTest::hard_error);
-        options.known = journal::StreamEnd{received.sessions[0], 0, clock.raw()};
-    }
+        CHECK(received.sessions[0].start_up_test == link.status().start_up_test);
+        return received.sessions[0];
+    };
+    sensor.raise(wire::kDiagHardError);  // The test after the next reset is passed.
+    const journal::Header failed = recorded();
+    CHECK(failed.start_up_test == StartUpTest::hard_error);
     SECTION("an adopted stream is of the same power-on") {
-        ReadQueue queue;
+        options.known = journal::StreamEnd{failed, 0, clock.raw()};
         sensor.lose_power();  // Its counter is 0, as in `known`.
         sensor.start_sampling();
-        SensorLink link(options, clock, queue);
-        CHECK(link.status().start_up_test == wire::StartUpTest::hard_error);
-        link.start();
-        REQUIRE(eventually([&] { return link.status().adoptions == 1; }));
-        link.stop();
-        CHECK(link.status().start_up_test == wire::StartUpTest::hard_error);
-        const Received received(queue);
-        REQUIRE(received.sessions.size() == 1);
-        CHECK(received.sessions[0].start_up_test == wire::StartUpTest::hard_error);
+        CHECK(recorded(true).start_up_test == StartUpTest::hard_error);
     }
     SECTION("a test whose result is lost on the line is repeated") {
         sensor.lose_answers(wire::kDiagStat, 1);
         sensor.fail_start_ups(wire::kDiagFlashError);
-        options.known.reset();
-        ReadQueue queue;
-        SensorLink link(options, clock, queue);
-        link.start();
-        REQUIRE(eventually([&] { return link.status().sessions == 1; }));
-        CHECK(link.status().start_up_test == wire::StartUpTest::flash_error);
-        link.stop();
+        CHECK(recorded().start_up_test == StartUpTest::flash_error);
     }
     SECTION("a sensor that is configured again repeats the test") {
-        ReadQueue queue;
-        SensorLink link(options, clock, queue);
-        link.start();
-        REQUIRE(eventually([&] { return link.status().sessions == 1; }));
-        CHECK(link.status().start_up_test == wire::StartUpTest::passed);
-        link.stop();
-        CHECK(Received(queue).sessions.at(0).start_up_test == wire::StartUpTest::passed);
+        options.known = journal::StreamEnd{failed, 0, clock.raw()};
+        CHECK(recorded().start_up_test == StartUpTest::passed);
     }
 }
 
-TEST_CASE("a stream that may be another one is stopped, and the sensor is configured",
-          "[daemon][sensor_link][adoption]") {
-    FakeSensor sensor;
-    ReadQueue queue;
-    const HostClock clock;
-    LinkOptions options = options_for(sensor.path());
+TEST_CASE_METHOD(LinkRig,
+                 "a stream that may be another one is stopped, and the sensor is configured") {
     options.known = known_stream(options, clock, 0);
     SECTION("its counter is eight seconds off") { options.known->count = 80 * 400; }
     SECTION("the port was another one") { options.known->header.port = "elsewhere"; }
