@@ -3,9 +3,9 @@
 #include <fstream>
 
 #include "protocol/text/text_file.hpp"
-#include "tests/unit/files/forgetful_files.hpp"
 #include "tests/unit/daemon/stepped_rig.hpp"
 #include "tests/unit/files/failing_files.hpp"
+#include "tests/unit/files/forgetful_files.hpp"
 
 using namespace a351;
 using namespace a351::daemon;
@@ -48,23 +48,31 @@ struct RecoveryRig : SteppedRig {
     }
 };
 
-}  // namespace
+/// Files of a session of 40 s as a crash would leave them, and a store's options for them.
+struct CrashedRig : Rig {
+    std::atomic<seconds> later{seconds(0)};  ///< By how much the clock of the next store is ahead.
+    store::Options again = crashed();
 
-TEST_CASE_METHOD(Rig, "a replay that keeps failing is given up before the journal has to wait",
-                 "[daemon][store][recovery]") {
-    store::Options again = options();
-    again.root = directory.path() / "crashed";
-    again.queue_bytes = std::size_t{256} << 10;  // About 6 000 frames.
-    std::atomic<std::chrono::seconds> later{std::chrono::seconds(0)};
-    again.time.now = [&] { return std::chrono::steady_clock::now() + later.load(); };
-    {
+private:
+    store::Options crashed() {
+        store::Options found = options();
+        found.root = directory.path() / "crashed";
+        found.time.now = [this] { return std::chrono::steady_clock::now() + later.load(); };
         Store store(files, options(), clock, reads);
         store.start();
         begin_session(1);
         feed(kFrames);
         REQUIRE(eventually([&] { return status_of(store).journaled == kFrames - 1; }));
-        std::filesystem::copy(root, again.root, std::filesystem::copy_options::recursive);
+        std::filesystem::copy(root, found.root, std::filesystem::copy_options::recursive);
+        return found;
     }
+};
+
+}  // namespace
+
+TEST_CASE_METHOD(CrashedRig,
+                 "a replay that keeps failing is given up before the journal has to wait") {
+    again.queue_bytes = std::size_t{256} << 10;  // About 6 000 frames.
     files.does_archive_fail = true;
     {
         Store store(files, again, clock, reads);
@@ -97,21 +105,9 @@ TEST_CASE_METHOD(Rig, "a replay that keeps failing is given up before the journa
 }
 
 TEST_CASE_METHOD(
-    Rig, "a replay stops when the remaining space becomes the journal's, and continues later",
-    "[daemon][store][recovery]") {
-    store::Options again = options();
-    again.root = directory.path() / "crashed";
-    {
-        Store store(files, options(), clock, reads);
-        store.start();
-        begin_session(1);
-        feed(kFrames);
-        REQUIRE(eventually([&] { return status_of(store).journaled == kFrames - 1; }));
-        std::filesystem::copy(root, again.root, std::filesystem::copy_options::recursive);
-    }
+    CrashedRig,
+    "a replay stops when the remaining space becomes the journal's, and continues later") {
     std::filesystem::remove_all(again.root / "archive");
-    std::atomic<std::chrono::seconds> later{std::chrono::seconds(0)};
-    again.time.now = [&] { return std::chrono::steady_clock::now() + later.load(); };
     files.does_archive_hang = true;
     Store store(files, again, clock, reads);
     store.start();
@@ -134,8 +130,7 @@ TEST_CASE_METHOD(
 
 TEST_CASE_METHOD(
     RecoveryRig,
-    "after a failed archive sync nothing is marked as archived, and the next start replays it",
-    "[daemon][store][recovery]") {
+    "after a failed archive sync nothing is marked as archived, and the next start replays it") {
     {
         Store store(files, options(), clock, reads);
         begin_session();
@@ -159,8 +154,7 @@ TEST_CASE_METHOD(
 
 TEST_CASE_METHOD(
     RecoveryRig,
-    "after a failed sync during a replay nothing is marked, and the next start replays it",
-    "[daemon][store][recovery]") {
+    "after a failed sync during a replay nothing is marked, and the next start replays it") {
     files.error_of_archive_sync = GENERATE(EIO, ENOSPC);  // network file systems report ENOSPC here
     const store::Options again = crash();
     const auto marks_before = read_journal(crashed).marks.size();
@@ -182,8 +176,7 @@ TEST_CASE_METHOD(
     check_archived_once(crashed);
 }
 
-TEST_CASE("after a killed replay, a complete one and a power cut every sample is archived once",
-          "[daemon][store][recovery]") {
+TEST_CASE("after a killed replay, a complete one and a power cut every sample is archived once") {
     std::mt19937_64 random(5);
     bool is_replayed = false;
     int kills = 0;
@@ -227,8 +220,7 @@ TEST_CASE("after a killed replay, a complete one and a power cut every sample is
     std::printf("replays killed: %d\n", kills);
 }
 
-TEST_CASE("a stop right after a stream has begun loses no sample when the stream is adopted",
-          "[daemon][store][recovery]") {
+TEST_CASE("a stop right after a stream has begun loses no sample when the stream is adopted") {
     // The range has stops before and after the times are fixed (ArrivalEdge::is_settled).
     const Nanoseconds begun = GENERATE(range(1, 13)) * kStep;
     CAPTURE(begun);
@@ -247,8 +239,7 @@ TEST_CASE("a stop right after a stream has begun loses no sample when the stream
     CHECK(report.records_added == 0);
 }
 
-TEST_CASE_METHOD(RecoveryRig, "a host clock at 1970 starts no epoch of the station metadata",
-                 "[daemon][store][recovery]") {
+TEST_CASE_METHOD(RecoveryRig, "a host clock at 1970 starts no epoch of the station metadata") {
     const auto file = root / "metadata" / "station.xml";
     Store store(files, options(), clock, reads);
     const auto since_1970 = std::chrono::floor<std::chrono::days>(utc.time_since_epoch());
@@ -268,8 +259,7 @@ TEST_CASE_METHOD(RecoveryRig, "a host clock at 1970 starts no epoch of the stati
 
 TEST_CASE_METHOD(
     RecoveryRig,
-    "records that a stop ended early are continued although another session follows soon",
-    "[daemon][store][recovery]") {
+    "records that a stop ended early are continued although another session follows soon") {
     {
         Store store(files, options(), clock, reads);
         begin_session(1);

@@ -6,8 +6,7 @@ using namespace a351;
 using daemon::store::ClockWatch;
 using std::chrono::seconds;
 
-TEST_CASE("each step of the host's clock that the sample times follow is reported",
-          "[daemon][clock_watch]") {
+TEST_CASE("each step of the host's clock that the sample times follow is reported") {
     ClockWatch watch;
     timing::ClockReading reading;
     reading.realtime = *parse_rfc3339("2026-03-01T12:00:00Z");

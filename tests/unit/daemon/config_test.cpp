@@ -4,12 +4,11 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
-#include "tests/support/catch.hpp"
-
 #include "daemon/config/verdict_config.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/wire/shipped_profiles.hpp"
+#include "tests/support/catch.hpp"
 #include "tests/support/temporary_directory.hpp"
 
 using namespace a351::daemon;
@@ -23,6 +22,12 @@ namespace {
 const std::string kStation = "[station]\nlatitude = 36.1\nlongitude = 140.1\nelevation_m = 26\n";
 const std::string kSensor = "[sensor]\nport = \"/dev/ttyUSB0\"\n";
 const std::string kStorage = "[storage]\nroot = \"data\"\n";
+const std::string kMinimal = kStation + kSensor + kStorage;
+
+/// Returns the minimal configuration with a further line of [sensor].
+std::string with_sensor(const std::string& line) {
+    return kStation + kSensor + line + "\n" + kStorage;
+}
 
 struct Fixture {
     test::TemporaryDirectory directory;
@@ -40,10 +45,8 @@ struct Fixture {
         } catch (const InputError& error) {
             std::string message = error.what();
             const std::string prefix = directory.path().string() + "/";
-            for (auto at = message.find(prefix); at != std::string::npos;
-                 at = message.find(prefix)) {
+            for (auto at = message.find(prefix); at != std::string::npos; at = message.find(prefix))
                 message.erase(at, prefix.size());
-            }
             return message;
         }
         return "accepted";
@@ -52,10 +55,10 @@ struct Fixture {
 
 }  // namespace
 
-TEST_CASE_METHOD(Fixture, "a token that every user can read is noticed", "[daemon][config]") {
+TEST_CASE_METHOD(Fixture, "a token that every user can read is noticed") {
     const std::string token = "[page]\ntoken = \"0123456789abcdef\"\n";
     for (const bool has_token : {false, true}) {
-        const Config config = read(kStation + kSensor + kStorage + (has_token ? token : ""));
+        const Config config = read(kMinimal + (has_token ? token : ""));
         std::filesystem::permissions(file, std::filesystem::perms(0644));
         CHECK(shows_token(config) == has_token);
         std::filesystem::permissions(file, std::filesystem::perms(0640));
@@ -63,8 +66,7 @@ TEST_CASE_METHOD(Fixture, "a token that every user can read is noticed", "[daemo
     }
 }
 
-TEST_CASE_METHOD(Fixture, "the profile is a name, or a file beside the configuration",
-                 "[daemon][config]") {
+TEST_CASE_METHOD(Fixture, "the profile is a name, or a file beside the configuration") {
     const auto with = [](const std::string& profile) {
         return kStation + kSensor + "profile = \"" + profile + "\"\n" + kStorage;
     };
@@ -92,9 +94,8 @@ TEST_CASE_METHOD(Fixture, "the profile is a name, or a file beside the configura
         "-1 to 1, but not 0");
 }
 
-TEST_CASE_METHOD(Fixture, "a minimal configuration has the documented defaults",
-                 "[daemon][config]") {
-    const Config config = read(kStation + kSensor + kStorage);
+TEST_CASE_METHOD(Fixture, "a minimal configuration has the documented defaults") {
+    const Config config = read(kMinimal);
     CHECK(config.station.codes == journal::StationCodes{});
     CHECK(config.station.latitude == Degrees(36.1));
     CHECK(config.sensor.address.path == "/dev/ttyUSB0");
@@ -112,7 +113,7 @@ TEST_CASE_METHOD(Fixture, "a minimal configuration has the documented defaults",
     CHECK(config.survey.set_ups == 1);
 }
 
-TEST_CASE("the annotated example is accepted", "[daemon][config]") {
+TEST_CASE("the annotated example is accepted") {
     const auto example = std::filesystem::path(A351_GOLDEN) / "../../config/a351d.toml";
     const Config config = read_config(example);
     CHECK(config.sensor.baud == 460800);
@@ -122,7 +123,7 @@ TEST_CASE("the annotated example is accepted", "[daemon][config]") {
     CHECK(config.verdict == verdict::Options{});
 }
 
-TEST_CASE_METHOD(Fixture, "every documented key is accepted and read", "[daemon][config]") {
+TEST_CASE_METHOD(Fixture, "every documented key is accepted and read") {
     std::ofstream(directory.path() / "sites.csv")
         << "site,longitude_deg,latitude_deg,altitude_m,gravity_mgal\nNo.0,140.1,36.1,26,\n";
     const Config config = read(
@@ -172,8 +173,7 @@ TEST_CASE_METHOD(Fixture, "every documented key is accepted and read", "[daemon]
     CHECK(config.verdict == verdict);
 }
 
-TEST_CASE("a pause of the host is no lack of data, however fast instrument time runs",
-          "[daemon][config]") {
+TEST_CASE("a pause of the host is no lack of data, however fast instrument time runs") {
     const source::HostClock real;
     CHECK(stale_after(real) == kStaleAfter);
     const source::HostClock fast(
@@ -181,15 +181,15 @@ TEST_CASE("a pause of the host is no lack of data, however fast instrument time 
     CHECK(stale_after(fast) == std::chrono::seconds(500));
 }
 
-TEST_CASE_METHOD(Fixture, "a configuration error names file, line, key, value and what is allowed",
-                 "[daemon][config]") {
-    CHECK(refusal(kStation + kSensor + "bits = 7\n" + kStorage) ==
+TEST_CASE_METHOD(Fixture,
+                 "a configuration error names file, line, key, value and what is allowed") {
+    CHECK(refusal(with_sensor("bits = 7")) ==
           "a351d.toml:7: sensor.bits = 7: unknown key; allowed: axes, baud, filter, "
           "output_rate_hz, port, profile, serial_number, usb");
-    CHECK(refusal(kStation + kSensor + "baud = \"fast\"\n" + kStorage) ==
+    CHECK(refusal(with_sensor("baud = \"fast\"")) ==
           "a351d.toml:7: sensor.baud = 'fast': wrong type; allowed: a whole number from 0 to "
           "10000000");
-    CHECK(refusal(kStation + kSensor + "baud = 9600\n" + kStorage) ==
+    CHECK(refusal(with_sensor("baud = 9600")) ==
           "a351d.toml:7: sensor.baud = 9600: not a known value; allowed: 460800, 230400, 115200");
     CHECK(refusal("[station]\nstation = \"tkb\"\n") ==
           "a351d.toml:2: station.station = 'tkb': not a SEED code; allowed: 1 to 5 characters A-Z "
@@ -199,7 +199,7 @@ TEST_CASE_METHOD(Fixture, "a configuration error names file, line, key, value an
           "or empty");
     CHECK(refusal("[station]\nlatitude = 1\n") ==
           "a351d.toml:1: station.longitude: missing; allowed: degrees east, -180 to 360");
-    CHECK(refusal(kStation + kSensor + "usb = \"0403:6001:X\"\n" + kStorage) ==
+    CHECK(refusal(with_sensor("usb = \"0403:6001:X\"")) ==
           "a351d.toml:6: sensor.port = '/dev/ttyUSB0': given together with usb; allowed: exactly "
           "one of port and usb");
     CHECK(refusal(kStation + "[sensor]\nusb = \"X\"\n" + kStorage) ==
@@ -208,13 +208,22 @@ TEST_CASE_METHOD(Fixture, "a configuration error names file, line, key, value an
     CHECK(refusal(kStation + "[sensor]\n" + kStorage) ==
           "a351d.toml:5: sensor.port: port and usb are both missing; allowed: exactly one of port "
           "and usb");
-    CHECK(refusal(kStation + kSensor + "filter = \"k512_fc16\"\n" + kStorage) ==
+    CHECK(refusal(with_sensor("filter = \"k512_fc16\"")) ==
           "a351d.toml:7: sensor.filter = 'k512_fc16': not usable at 50 Hz with profile A351; "
           "allowed: k512_fc9");
-    CHECK(refusal(kStation + kSensor + "axes = \"1,1,Z\"\n" + kStorage) ==
+    CHECK(refusal(with_sensor("axes = \"1,1,Z\"")) ==
           "a351d.toml:7: sensor.axes = '1,1,Z': not three channel suffixes; allowed: three "
           "different characters A-Z 0-9 for x, y, z, as \"1,2,Z\"");
-    const std::string before_oven = kStation + kSensor + kStorage + "[oven]\n";
+    // 500 Hz x 24 bytes x 10 bits = 120 000 bit/s.
+    CHECK(refusal(with_sensor("baud = 115200\noutput_rate_hz = 500\nfilter = \"k512_fc210\"")) ==
+          "a351d.toml:7: sensor.baud = 115200: too slow for the output rate; allowed: at least "
+          "120000 bit/s");
+    std::filesystem::create_symlink("/dev/null", directory.path() / "sensor");
+    std::filesystem::create_symlink("sensor", directory.path() / "oven");
+    CHECK_THAT(refusal(kStation + "[sensor]\nport = \"sensor\"\n" + kStorage +
+                       "[oven]\nenabled = true\nport = \"oven\"\n"),
+               ContainsSubstring("oven.port = 'oven': the sensor's port"));
+    const std::string before_oven = kMinimal + "[oven]\n";
     CHECK(refusal(before_oven + "enabled = true\n") ==
           "a351d.toml:9: oven.port: missing; allowed: the controller's serial port");
     CHECK(refusal(before_oven + "enabled = true\nport = \"/dev/../dev/ttyUSB0\"\n") ==
@@ -233,46 +242,35 @@ TEST_CASE_METHOD(Fixture, "a configuration error names file, line, key, value an
           "http://box:", "http://box:0", "http://box:65536", "http://box:08351", "http://box:83x",
           "http://box:1:2", "http://:8351", "http://-", "http://box.", "http://[::1]:8351",
           "ftp://box"})
-        CHECK_THAT(refusal(kStation + kSensor + kStorage + "[page]\nboxes = [\"" + box + "\"]\n"),
+        CHECK_THAT(refusal(kMinimal + "[page]\nboxes = [\"" + box + "\"]\n"),
                    ContainsSubstring("not the address of a daemon: " + box + "; allowed: http://"));
     const std::string both = before_oven + "enabled = true\nport = \"o\"\n[oven.outer]\n";
     CHECK(refusal(both + "enabled = true\nport = \"o\"\n") ==
           "a351d.toml:14: oven.outer.port = 'o': the inner oven's port; allowed: a port other than "
           "oven.port");
     CHECK_THAT(refusal(both + "lid = 1\n"), ContainsSubstring("oven.outer.lid = 1: unknown key"));
-    CHECK_THAT(refusal(kStation + kSensor + kStorage + "[page]\nassets = \"none\"\n"),
+    CHECK_THAT(refusal(kMinimal + "[page]\nassets = \"none\"\n"),
                ContainsSubstring("page.assets = 'none': no such directory: none; allowed: "));
-    CHECK(refusal(kStation + kSensor + kStorage + "[survey]\nsites = \"no.csv\"\n") ==
+    CHECK(refusal(kMinimal + "[survey]\nsites = \"no.csv\"\n") ==
           "a351d.toml:10: survey.sites = 'no.csv': no such file: no.csv; allowed: a CSV file of "
           "sites, or \"\"");
-    CHECK(refusal(kStation + kSensor + kStorage + "[survey]\noccupation_min = 10\nset_ups = 4\n") ==
+    CHECK(refusal(kMinimal + "[survey]\noccupation_min = 10\nset_ups = 4\n") ==
           "a351d.toml:11: survey.set_ups = 4: out of range; allowed: a whole number from 1 to 3");
-    CHECK_THAT(refusal(kStation + kSensor + kStorage + "[verdict]\nslope = 1\n"),
+    CHECK_THAT(refusal(kMinimal + "[verdict]\nslope = 1\n"),
                StartsWith("a351d.toml:10: verdict.slope = 1: unknown key; allowed: ") &&
                    ContainsSubstring("tilt_deg"));
-    CHECK_THAT(refusal(kStation + kSensor + kStorage + "[verdict]\nshake_gal = 0.001\n"),
+    CHECK_THAT(refusal(kMinimal + "[verdict]\nshake_gal = 0.001\n"),
                StartsWith("a351d.toml:10: verdict.shake_gal = 0.001: out of range"));
     CHECK(refusal(kStation + kSensor + "[storage]\n") ==
           "a351d.toml:7: storage.root: missing; allowed: the directory for the recorded data");
 }
 
-TEST_CASE_METHOD(Fixture, "a baud rate too low for the output rate is refused",
-                 "[daemon][config]") {
-    // 500 Hz x 24 bytes x 10 bits = 120 000 bit/s.
-    CHECK(refusal(kStation + kSensor + "baud = 115200\noutput_rate_hz = 500\n" +
-                  "filter = \"k512_fc210\"\n" + kStorage) ==
-          "a351d.toml:7: sensor.baud = 115200: too slow for the output rate; allowed: at least "
-          "120000 bit/s");
-}
-
-TEST_CASE_METHOD(Fixture, "an address beyond loopback is recognised", "[daemon][config]") {
-    const std::string all = kStation + kSensor + kStorage;
+TEST_CASE_METHOD(Fixture, "an address beyond loopback is recognised") {
     const auto page = [&](const std::string& listen) {
-        return all + "[page]\nlisten = \"" + listen + "\"";
+        return kMinimal + "[page]\nlisten = \"" + listen + "\"";
     };
-    for (const char* own : {"127.0.0.1:8351", "127.0.0.2:1", "[::1]:8351", "localhost:8351"}) {
+    for (const char* own : {"127.0.0.1:8351", "127.0.0.2:1", "[::1]:8351", "localhost:8351"})
         CHECK(read(page(own) + "\n").page.listen.is_loopback);
-    }
     for (const char* open : {"0.0.0.0:8351", "[::]:8351"}) {
         CAPTURE(open);
         CHECK_FALSE(read(page(open) + "\n").page.listen.is_loopback);
@@ -292,23 +290,13 @@ TEST_CASE_METHOD(Fixture, "an address beyond loopback is recognised", "[daemon][
         CHECK_THAT(refusal(page(odd) + "\n"), ContainsSubstring("page.listen"));
     }
     for (const char* weak : {"short", "with blank and more"}) {
-        CHECK_THAT(refusal(all + "[page]\ntoken = \"" + std::string(weak) + "\"\n"),
+        CHECK_THAT(refusal(kMinimal + "[page]\ntoken = \"" + std::string(weak) + "\"\n"),
                    ContainsSubstring("page.token = "));
     }
 }
 
-TEST_CASE_METHOD(Fixture, "a symbolic link to the sensor's port is refused as the oven's port",
-                 "[daemon][config]") {
-    std::filesystem::create_symlink("/dev/null", directory.path() / "sensor");
-    std::filesystem::create_symlink("sensor", directory.path() / "oven");
-    CHECK_THAT(refusal(kStation + "[sensor]\nport = \"sensor\"\n" + kStorage +
-                       "[oven]\nenabled = true\nport = \"oven\"\n"),
-               ContainsSubstring("oven.port = 'oven': the sensor's port"));
-}
-
-TEST_CASE_METHOD(Fixture,
-                 "a calibration sets the response of the live signal, and keys override its warm-up",
-                 "[daemon][config]") {
+TEST_CASE_METHOD(
+    Fixture, "a calibration sets the response of the live signal, and keys override its warm-up") {
     unit::Calibration unit;
     unit.serial_number = "00000042";
     unit.program = "test";
@@ -317,7 +305,7 @@ TEST_CASE_METHOD(Fixture,
     unit.thermal->values << -10.0, -15.0, 9.0, std::log(40.0), std::log(1800.0);
     unit.warm_up = unit::WarmUpGuidance{1.0, 9.0};
     std::ofstream(directory.path() / "unit.toml") << unit::to_toml(unit);
-    const Config config = read(kStation + kSensor + kStorage +
+    const Config config = read(kMinimal +
                                "[survey]\ncalibration = \"unit.toml\"\n[verdict]\n"
                                "gap_s = 20\n");
     CHECK(config.verdict.static_mgal_per_degc == -10.0);
@@ -326,25 +314,23 @@ TEST_CASE_METHOD(Fixture,
     CHECK(config.verdict.slow_lag_min == Approx(30.0));
     // 36 mGal at power-on decay to 1 mGal after 9 h.
     CHECK(36.0 * std::exp(-9.0 / config.verdict.warm_up_h) == Approx(1.0));
-    const Config given = read(kStation + kSensor + kStorage +
-                              "[survey]\ncalibration = \"unit.toml\"\n[verdict]\nwarm_up_h = 3\n");
+    const Config given =
+        read(kMinimal + "[survey]\ncalibration = \"unit.toml\"\n[verdict]\nwarm_up_h = 3\n");
     CHECK(given.verdict.warm_up_h == 3.0);  // The explicit key wins.
 
     std::ofstream(directory.path() / "unit.toml") << "format = 2\n";
-    CHECK_THAT(refusal(kStation + kSensor + kStorage + "[survey]\ncalibration = \"unit.toml\"\n"),
+    CHECK_THAT(refusal(kMinimal + "[survey]\ncalibration = \"unit.toml\"\n"),
                ContainsSubstring("unit.toml:1: format = 2"));
 }
 
-TEST_CASE_METHOD(Fixture, "a host of the page is a name or an origin without a path",
-                 "[daemon][config]") {
-    const std::string base = kStation + kSensor + kStorage;
+TEST_CASE_METHOD(Fixture, "a host of the page is a name or an origin without a path") {
     for (const char* host : {"https://box/a351", "box/", "https://", "", "my box"}) {
         CAPTURE(host);
         CHECK_THAT(
-            refusal(base + "[page]\nhosts = [\"" + host + "\"]\n"),
+            refusal(kMinimal + "[page]\nhosts = [\"" + host + "\"]\n"),
             ContainsSubstring("page.hosts") && ContainsSubstring("not a host name or an origin"));
     }
     const auto config =
-        read(base + "[page]\nhosts = [\"laptop.local\", \"box:8080\", \"https://box:8443\"]\n");
+        read(kMinimal + "[page]\nhosts = [\"laptop.local\", \"box:8080\", \"https://box:8443\"]\n");
     CHECK(config.page.hosts.size() == 3);
 }

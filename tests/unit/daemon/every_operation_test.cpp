@@ -55,7 +55,7 @@ public:
 
 private:
     void note_event(Store& store, const std::string& text) {
-        const events::Event event = note(text);
+        const events::Event event = note_at(utc, text);
         if (commit(store, event)) acknowledged_.push_back(events::to_json(event));
     }
 
@@ -133,8 +133,7 @@ constexpr int kShortStride = 19;
 
 }  // namespace
 
-TEST_CASE("a minute without faults needs the same number of file operations each time",
-          "[daemon][store][every_operation]") {
+TEST_CASE("a minute without faults needs the same number of file operations each time") {
     Minute once{Fault{}};
     Minute twice{Fault{}};
     CHECK(once.operations() == twice.operations());
@@ -143,8 +142,7 @@ TEST_CASE("a minute without faults needs the same number of file operations each
 }
 
 TEST_CASE_METHOD(SteppedRig,
-                 "one failed sync is an alarm for 10 s, and its data are written again at once",
-                 "[daemon][store][every_operation]") {
+                 "one failed sync is an alarm for 10 s, and its data are written again at once") {
     test::FailingFiles failing;
     Store store(failing, options(), clock, reads);
     begin_session();
@@ -165,8 +163,7 @@ TEST_CASE_METHOD(SteppedRig,
     CHECK(store.stop());
 }
 
-TEST_CASE("whichever file operation fails, every journaled sample is archived once",
-          "[daemon][store][every_operation]") {
+TEST_CASE("whichever file operation fails, every journaled sample is archived once") {
     const struct {
         Fault::Kind kind;
         const char* name;

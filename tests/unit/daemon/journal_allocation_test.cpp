@@ -59,7 +59,7 @@ struct JournalPath : SteppedRig {
 
 }  // namespace
 
-TEST_CASE("chunks, journal and sync allocate no memory at a steady rate", "[daemon][store]") {
+TEST_CASE("chunks, journal and sync allocate no memory at a steady rate") {
     const int rate_hz = GENERATE(50, 1000, 20'000);
     JournalPath path;
     path.begin_session();

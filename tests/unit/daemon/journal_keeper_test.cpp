@@ -1,8 +1,5 @@
 #include "daemon/store/journal_keeper.hpp"
 
-#include <algorithm>
-#include "tests/support/catch.hpp"
-
 #include "protocol/journal/journal_reader.hpp"
 #include "protocol/journal/journal_writer.hpp"
 #include "tests/unit/daemon/store_rig.hpp"
@@ -61,21 +58,32 @@ struct Journal {
 
 using Numbers = std::vector<std::uint64_t>;
 
-}  // namespace
-
-TEST_CASE("closed segments are compressed, the newest is not", "[daemon][keeper]") {
-    const Journal journal(Journal::sessions(4));
-    JournalKeeper keeper(files::posix_files(), journal.path, kEager);
+/// Returns how many segments a keeper removes from a new journal.
+std::uint64_t removed_of(const std::vector<Journal::Day>& days,
+                         const JournalKeeper::Options& options = kEager) {
+    const Journal journal(days);
+    JournalKeeper keeper(files::posix_files(), journal.path, options);
     keeper.tidy();
-    CHECK(journal.numbers(".zst") == Numbers{1, 2, 3});
-    CHECK(journal.numbers(".a351j") == Numbers{4});
-    CHECK(keeper.status().compressed == 3);
-    keeper.tidy();
-    CHECK(keeper.status().compressed == 3);
+    return keeper.status().removed;
 }
 
-TEST_CASE("while names of segments must be kept none is compressed, but old ones are removed",
-          "[daemon][keeper]") {
+}  // namespace
+
+TEST_CASE("closed segments are compressed, the newest and recently written ones are not") {
+    const Journal journal(Journal::sessions(4));
+    JournalKeeper patient(files::posix_files(), journal.path, {});
+    patient.tidy();
+    CHECK(journal.numbers(".zst").empty());
+    JournalKeeper keeper(files::posix_files(), journal.path, kEager);
+    for (int i = 0; i < 2; ++i) {
+        keeper.tidy();
+        CHECK(journal.numbers(".zst") == Numbers{1, 2, 3});
+        CHECK(journal.numbers(".a351j") == Numbers{4});
+        CHECK(keeper.status().compressed == 3);
+    }
+}
+
+TEST_CASE("while names of segments must be kept none is compressed, but old ones are removed") {
     const Journal journal(Journal::sessions(20));
     JournalKeeper keeper(files::posix_files(), journal.path, kEager);
     keeper.keep_names(true);
@@ -87,74 +95,42 @@ TEST_CASE("while names of segments must be kept none is compressed, but old ones
     CHECK(keeper.status().compressed > 0);
 }
 
-TEST_CASE("a segment that was written recently is not compressed", "[daemon][keeper]") {
-    const Journal journal(Journal::sessions(4));
-    JournalKeeper keeper(files::posix_files(), journal.path, {});
-    keeper.tidy();
-    CHECK(journal.numbers(".zst").empty());
-}
-
-TEST_CASE("sessions that ended long ago and are in the archive are removed", "[daemon][keeper]") {
+TEST_CASE("sessions that ended long ago and are in the archive are removed") {
     const Journal journal(Journal::sessions(20));
     JournalKeeper keeper(files::posix_files(), journal.path, kEager);
-    keeper.tidy();
-    CHECK(keeper.status().removed == 9);  // 9 ended 10 days before 20 began
-    CHECK(journal.numbers(".zst").front() == 10);
-    CHECK(journal.numbers(".a351j") == Numbers{20});
-    keeper.tidy();
-    CHECK(keeper.status().removed == 9);
-}
-
-TEST_CASE("segments that no later session's MARK covers are kept", "[daemon][keeper]") {
-    auto days = Journal::sessions(20);
-    days[19].has_mark = false;
-    const auto removed_of = [&] {
-        const Journal journal(days);
-        JournalKeeper keeper(files::posix_files(), journal.path, kEager);
+    for (int i = 0; i < 2; ++i) {
         keeper.tidy();
-        return keeper.status().removed;
-    };
-    CHECK(removed_of() == 0);
-    days[4].has_mark = true;
-    CHECK(removed_of() == 4);
-}
-
-TEST_CASE("old segments of a session that lasted until recently are kept", "[daemon][keeper]") {
-    auto days = Journal::sessions(20);
-    for (std::size_t i = 5; i < 15; ++i) days[i].session = 77;
-    const Journal journal(days);
-    JournalKeeper keeper(files::posix_files(), journal.path, kEager);
-    keeper.tidy();
-    CHECK(keeper.status().removed == 5);
-    for (std::size_t i = 5; i < 20; ++i) days[i].session = 77;
-    const Journal longer(days);
-    JournalKeeper other(files::posix_files(), longer.path, kEager);
-    other.tidy();
-    CHECK(other.status().removed == 5);
-}
-
-TEST_CASE("dates of an unsynchronised clock do not count, and keep_days = 0 removes nothing",
-          "[daemon][keeper]") {
-    auto days = Journal::sessions(20);
-    days[3].is_synchronised = false;
-    const Journal journal(days);
-    JournalKeeper keeper(files::posix_files(), journal.path, kEager);
-    keeper.tidy();
-    CHECK(keeper.status().removed == 9);
-    for (auto& day : days) day.is_synchronised = false;
-    const Journal never(days);
-    JournalKeeper other(files::posix_files(), never.path, kEager);
-    other.tidy();
-    CHECK(other.status().removed == 0);
-    const Journal kept(Journal::sessions(20));
+        CHECK(keeper.status().removed == 9);  // 9 ended 10 days before 20 began
+        CHECK(journal.numbers(".zst").front() == 10);
+        CHECK(journal.numbers(".a351j") == Numbers{20});
+    }
     JournalKeeper::Options for_ever = kEager;
     for_ever.keep_days = 0;
-    JournalKeeper third(files::posix_files(), kept.path, for_ever);
-    third.tidy();
-    CHECK(third.status().removed == 0);
+    CHECK(removed_of(Journal::sessions(20), for_ever) == 0);
 }
 
-TEST_CASE("a segment without a header does not stop the removal of others", "[daemon][keeper]") {
+TEST_CASE("segments without a later MARK, of a lasting session or of no known date are kept") {
+    const auto days = Journal::sessions(20);
+    auto marked = days;
+    marked[19].has_mark = false;
+    CHECK(removed_of(marked) == 0);
+    marked[4].has_mark = true;
+    CHECK(removed_of(marked) == 4);
+
+    for (const std::size_t end : {15U, 20U}) {
+        auto lasting = days;
+        for (std::size_t i = 5; i < end; ++i) lasting[i].session = 77;
+        CHECK(removed_of(lasting) == 5);
+    }
+
+    auto undated = days;
+    undated[3].is_synchronised = false;
+    CHECK(removed_of(undated) == 9);
+    for (auto& day : undated) day.is_synchronised = false;
+    CHECK(removed_of(undated) == 0);
+}
+
+TEST_CASE("a segment without a header does not stop the removal of others") {
     const Journal journal(Journal::sessions(20));
     std::filesystem::resize_file(journal::segment_files(journal.path)[4], 10);
     JournalKeeper keeper(files::posix_files(), journal.path, kEager);
@@ -162,8 +138,7 @@ TEST_CASE("a segment without a header does not stop the removal of others", "[da
     CHECK(keeper.status().removed == 8);
 }
 
-TEST_CASE("a disk fault is counted, and reported until the keeper has succeeded",
-          "[daemon][keeper]") {
+TEST_CASE("a disk fault is counted, and reported until the keeper has succeeded") {
     const Journal journal(Journal::sessions(4));
     test::FailingFiles files(1);
     JournalKeeper keeper(files, journal.path, kEager);
@@ -176,8 +151,7 @@ TEST_CASE("a disk fault is counted, and reported until the keeper has succeeded"
     CHECK(keeper.status().faults == 1);
 }
 
-TEST_CASE_METHOD(Rig, "a segment is removed when the archive has its samples, and not before",
-                 "[daemon][keeper]") {
+TEST_CASE_METHOD(Rig, "a segment is removed when the archive has its samples, and not before") {
     store::Options tidy = options();
     tidy.keeper = kEager;
     files.does_archive_fail = true;

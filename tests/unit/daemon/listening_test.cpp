@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <span>
 #include <vector>
-#include "tests/support/catch.hpp"
-
 #include "daemon/source/sampling_start.hpp"
 #include "protocol/wire/burst_frame.hpp"
+#include "tests/support/catch.hpp"
 
 using namespace a351;
 using namespace a351::daemon::source;
@@ -70,16 +69,14 @@ std::vector<std::byte> joined(std::vector<std::byte> first, const std::vector<st
 
 }  // namespace
 
-TEST_CASE("a stream that continues is known, however its frames are cut",
-          "[daemon][sampling_start][adoption]") {
+TEST_CASE("a stream that continues is known, however its frames are cut") {
     CHECK(outcome_of({}, frames_after(kKnownCount, 20)) == Listening::Outcome::continues);
     CHECK(
         outcome_of(frames_after(kKnownCount, 5), frames_after(kKnownCount + 5 * kCountStep, 15)) ==
         Listening::Outcome::continues);
 }
 
-TEST_CASE("a sensor that restarts while it is listened to is not the known stream",
-          "[daemon][sampling_start][adoption]") {
+TEST_CASE("a sensor that restarts while it is listened to is not the known stream") {
     // Nine frames are one less than make the stream certain.
     const int frames_before = GENERATE(1, 5, 9);
     const auto known = frames_after(kKnownCount, frames_before);

@@ -1,15 +1,14 @@
 #include <algorithm>
 #include <functional>
 
-#include "tests/unit/files/forgetful_files.hpp"
 #include "tests/unit/daemon/store_rig.hpp"
+#include "tests/unit/files/forgetful_files.hpp"
 
 using namespace a351;
 using namespace a351::daemon;
 using namespace a351::daemon::store;
 
-TEST_CASE_METHOD(Rig, "after a power cut every journaled sample is archived once",
-                 "[daemon][store][power_cut]") {
+TEST_CASE_METHOD(Rig, "after a power cut every journaled sample is archived once") {
     constexpr int kCuts = 100;
     test::ForgetfulFiles forgetful;
     std::mt19937_64 random(11);
@@ -41,14 +40,14 @@ TEST_CASE_METHOD(Rig, "after a power cut every journaled sample is archived once
         REQUIRE(std::ranges::includes(expected, counts));
         REQUIRE(samples_in_records(found, "BNZ") == counts.size());
         // The disk may keep chunks behind others that it lost.
-        const auto first_lost = static_cast<std::size_t>(
-            std::ranges::mismatch(counts, expected).in1 - counts.begin());
+        const auto first_lost =
+            static_cast<std::size_t>(std::ranges::mismatch(counts, expected).in1 - counts.begin());
         REQUIRE(static_cast<std::int64_t>(first_lost) > journaled.value_or(-1));
         holes += first_lost < counts.size() ? 1U : 0U;
         lost += static_cast<std::size_t>(fed) - counts.size();
         if (first_lost < fed_at.size())
-            oldest_lost = std::max<std::chrono::duration<double>>(oldest_lost,
-                                                                  cut_at - fed_at[first_lost]);
+            oldest_lost =
+                std::max<std::chrono::duration<double>>(oldest_lost, cut_at - fed_at[first_lost]);
         CHECK(recover(files::posix_files(), again, clock).records_added == 0);
         std::filesystem::remove_all(found);
     }

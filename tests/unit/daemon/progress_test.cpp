@@ -13,7 +13,7 @@ const SessionId kOther{{2}};
 
 }  // namespace
 
-TEST_CASE("a sample is journaled once its chunk is both parsed and synced", "[daemon][progress]") {
+TEST_CASE("a sample is journaled once its chunk is both parsed and synced") {
     Progress progress;
     progress.parsed(1, kSession, std::nullopt);
     progress.parsed(2, kSession, 9);
@@ -30,7 +30,7 @@ TEST_CASE("a sample is journaled once its chunk is both parsed and synced", "[da
     CHECK(progress.indices().archived == std::nullopt);
 }
 
-TEST_CASE("indices of one session never count for another", "[daemon][progress]") {
+TEST_CASE("indices of one session never count for another") {
     Progress progress;
     progress.parsed(1, kSession, 9);
     progress.journal_synced(1);
@@ -42,8 +42,7 @@ TEST_CASE("indices of one session never count for another", "[daemon][progress]"
     CHECK(progress.indices().archived == std::nullopt);
 }
 
-TEST_CASE("indices before a restart of the sensor's counter never count after it",
-          "[daemon][progress]") {
+TEST_CASE("indices before a restart of the sensor's counter never count after it") {
     Progress progress;
     progress.parsed(1, kSession, 900);
     progress.journal_synced(1);

@@ -16,8 +16,7 @@ RawTime at(std::int64_t ns) { return RawTime(Nanoseconds(ns)); }
 
 }  // namespace
 
-TEST_CASE("items pushed in one thread come out in another, in order and unchanged",
-          "[daemon][read_queue]") {
+TEST_CASE("items pushed in one thread come out in another, in order and unchanged") {
     ReadQueue queue(kSmall);
     constexpr std::int64_t kItems = 20000;
     std::thread producer([&queue] {
@@ -46,7 +45,7 @@ TEST_CASE("items pushed in one thread come out in another, in order and unchange
     CHECK(queue.fill() == 0);
 }
 
-TEST_CASE("a full queue refuses new items and keeps the old ones", "[daemon][read_queue]") {
+TEST_CASE("a full queue refuses new items and keeps the old ones") {
     ReadQueue queue(kSmall);
     const std::vector<std::byte> bytes(1000, std::byte{7});
     std::int64_t taken = 0;
@@ -61,7 +60,7 @@ TEST_CASE("a full queue refuses new items and keeps the old ones", "[daemon][rea
     CHECK_FALSE(queue.front());
 }
 
-TEST_CASE("the queue holds an hour of reads at 50 Hz", "[daemon][read_queue]") {
+TEST_CASE("the queue holds an hour of reads at 50 Hz") {
     ReadQueue queue;
     const std::vector<std::byte> frame(24);
     std::int64_t refused = 0;
@@ -71,8 +70,7 @@ TEST_CASE("the queue holds an hour of reads at 50 Hz", "[daemon][read_queue]") {
     CHECK(refused == 0);
 }
 
-TEST_CASE("a session header comes out between the bytes pushed before and after it",
-          "[daemon][read_queue]") {
+TEST_CASE("a session header comes out between the bytes pushed before and after it") {
     ReadQueue queue(kSmall);
     const std::vector<std::byte> bytes(5);
     REQUIRE(queue.push(ReadQueue::Kind::rx, at(1), bytes));

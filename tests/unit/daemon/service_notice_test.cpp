@@ -9,7 +9,6 @@
 #include <optional>
 #include <string>
 #include "tests/support/catch.hpp"
-
 #include "tests/support/temporary_directory.hpp"
 
 using namespace a351;
@@ -47,8 +46,7 @@ private:
 
 }  // namespace
 
-TEST_CASE("the service manager is notified of start, life signs, changed status and stop",
-          "[daemon][service]") {
+TEST_CASE("the service manager is notified of start, life signs, changed status and stop") {
     const test::TemporaryDirectory directory;
     const bool is_abstract = GENERATE(false, true);
     const std::string name = is_abstract ? "@a351-test-" + std::to_string(getpid())
@@ -70,7 +68,7 @@ TEST_CASE("the service manager is notified of start, life signs, changed status 
     CHECK(manager.heard() == std::nullopt);
 }
 
-TEST_CASE("a service manager that is absent or does not read delays nothing", "[daemon][service]") {
+TEST_CASE("a service manager that is absent or does not read delays nothing") {
     ServiceNotice("").ready();
     const test::TemporaryDirectory directory;
     const std::string name = directory.path().string() + "/notify";

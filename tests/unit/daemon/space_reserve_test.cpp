@@ -35,7 +35,7 @@ struct SmallRig : SteppedRig {
 
 }  // namespace
 
-TEST_CASE("the blocks of the reserve are really allocated", "[daemon][reserve]") {
+TEST_CASE("the blocks of the reserve are really allocated") {
     const test::TemporaryDirectory directory;
     const auto file = directory.path() / "reserve";
     SpaceReserve reserve(files::posix_files(), file, 8 << 20);
@@ -54,27 +54,24 @@ TEST_CASE("the blocks of the reserve are really allocated", "[daemon][reserve]")
     CHECK(reserve.status().times_given_up == 1);
 }
 
-TEST_CASE("a reserve is made only if more than twice its size is free", "[daemon][reserve]") {
+TEST_CASE(
+    "a reserve is made only if more than twice its size is free, and kept by the next start") {
     const test::TemporaryDirectory directory;
     test::SmallDisk disk(1000);
     disk.fill_up_to(200);
-    SpaceReserve reserve(disk, directory.path() / "reserve", 100);
-    CHECK(reserve.status().state == State::given_up);
-    CHECK(reserve.status().times_given_up == 0);
-    disk.fill_up_to(201);
-    reserve.tend();
-    CHECK(reserve.status().state == State::present);
-    CHECK_FALSE(reserve.is_space_short());
-    disk.fill_up_to(99);
-    reserve.tend();
-    CHECK(reserve.status().state == State::present);
-    CHECK(reserve.is_space_short());
-}
-
-TEST_CASE("an existing reserve needs no further space at a start", "[daemon][reserve]") {
-    const test::TemporaryDirectory directory;
-    test::SmallDisk disk(1000);
-    { const SpaceReserve reserve(disk, directory.path() / "reserve", 100); }
+    {
+        SpaceReserve reserve(disk, directory.path() / "reserve", 100);
+        CHECK(reserve.status().state == State::given_up);
+        CHECK(reserve.status().times_given_up == 0);
+        disk.fill_up_to(201);
+        reserve.tend();
+        CHECK(reserve.status().state == State::present);
+        CHECK_FALSE(reserve.is_space_short());
+        disk.fill_up_to(99);
+        reserve.tend();
+        CHECK(reserve.status().state == State::present);
+        CHECK(reserve.is_space_short());
+    }
     disk.fill_up_to(0);
     SpaceReserve again(disk, directory.path() / "reserve", 100);
     CHECK(again.status().state == State::present);
@@ -82,8 +79,7 @@ TEST_CASE("an existing reserve needs no further space at a start", "[daemon][res
     CHECK(disk.free_bytes(directory.path()) == 100);
 }
 
-TEST_CASE("a file system that cannot reserve space is reported and delays nothing",
-          "[daemon][reserve]") {
+TEST_CASE("a file system that cannot reserve space is reported and delays nothing") {
     const test::TemporaryDirectory directory;
     test::SmallDisk disk(1000);
     disk.error_of_allocate = EOPNOTSUPP;
@@ -95,8 +91,7 @@ TEST_CASE("a file system that cannot reserve space is reported and delays nothin
 }
 
 TEST_CASE_METHOD(SmallRig,
-                 "on a full disk the journal continues in the reserve, and the archive waits",
-                 "[daemon][store][reserve]") {
+                 "on a full disk the journal continues in the reserve, and the archive waits") {
     disk.error_when_full = GENERATE(ENOSPC, EDQUOT);  // No space, or none within the quota.
     Store store(disk, options(), clock, reads);
     begin_session();
@@ -115,7 +110,7 @@ TEST_CASE_METHOD(SmallRig,
     CHECK(has_reason(full, "disk full"));
     CHECK(full.journaled.value() > fed - 60);
     CHECK_FALSE(std::filesystem::exists(reserve_file()));
-    CHECK(commit(store, note("in the reserve")));
+    CHECK(commit(store, note_at(utc, "in the reserve")));
     CHECK(read_journal(root).bytes == bytes);
 
     disk.empty();
@@ -129,8 +124,8 @@ TEST_CASE_METHOD(SmallRig,
     CHECK(events::read_events(root / "events").events.size() == 1);
 }
 
-TEST_CASE_METHOD(SmallRig, "after the reserve is used up nothing is lost once there is space again",
-                 "[daemon][store][reserve]") {
+TEST_CASE_METHOD(SmallRig,
+                 "after the reserve is used up nothing is lost once there is space again") {
     Store store(disk, options(), clock, reads);
     begin_session();
     advance(store, seconds(10));
@@ -141,7 +136,7 @@ TEST_CASE_METHOD(SmallRig, "after the reserve is used up nothing is lost once th
     CHECK(full.journaled.value() < fed - 50 * 60);
     CHECK(full.journaled.value() > 50 * 40);
     disk.fill_up_to(0);  // Otherwise a short line would still find room.
-    CHECK_FALSE(commit(store, note("nowhere")));
+    CHECK_FALSE(commit(store, note_at(utc, "nowhere")));
     for (const auto& segment : journal::segment_files(root / "journal")) {
         journal::Reader reader(segment);
         while (reader.next()) {
@@ -153,31 +148,16 @@ TEST_CASE_METHOD(SmallRig, "after the reserve is used up nothing is lost once th
     advance(store, seconds(20));
     CHECK(status_of(store).level == Status::Level::good);
     CHECK(status_of(store).journaled.value() > fed - 60);
-    CHECK(commit(store, note("again")));
+    CHECK(commit(store, note_at(utc, "again")));
     CHECK(store.stop());
     CHECK(read_journal(root).bytes == bytes);
     CHECK(is_archive_complete());
     CHECK(events::read_events(root / "events").events.size() == 1);
 }
 
-TEST_CASE_METHOD(SmallRig,
-                 "records that the archive could not write before are written at the stop",
-                 "[daemon][store][reserve]") {
-    Store store(disk, options(), clock, reads);
-    begin_session();
-    advance(store, seconds(10));
-    disk.fill_up_to(kReserve - 1);
-    advance(store, seconds(20));
-    CHECK(reserve(store) == "present");
-    CHECK(has_reason(status_of(store), "disk full"));
-    CHECK(archived_counts(root, "BNZ").size() < 1000);
-    CHECK(store.stop());
-    CHECK(is_archive_complete());
-}
-
 TEST_CASE_METHOD(
-    SmallRig, "if the memory of waiting records is full, only the excess takes the journal's space",
-    "[daemon][store][reserve]") {
+    SmallRig,
+    "if the memory of waiting records is full, only the excess takes the journal's space") {
     constexpr std::uint64_t kMost = 4;  // Records.
     store::Options small = options();
     small.waiting_records_bytes = kMost * archive::kRecordSize;
@@ -185,6 +165,7 @@ TEST_CASE_METHOD(
     begin_session();
     advance(store, seconds(10));
     disk.fill_up_to(kReserve - 1);
+    CHECK(reserve(store) == "present");
     std::uint64_t most_waiting = 0;
     const auto before = archived_counts(root, "BNZ").size();
     for (int i = 0; i < 15; ++i) {
@@ -194,15 +175,15 @@ TEST_CASE_METHOD(
         CHECK(waiting >= most_waiting);
         most_waiting = waiting;
     }
+    CHECK(has_reason(status_of(store), "disk full"));
     CHECK(most_waiting == kMost);
     CHECK(archived_counts(root, "BNZ").size() > before);
     CHECK(store.stop());
     CHECK(is_archive_complete());
 }
 
-TEST_CASE_METHOD(SmallRig,
-                 "a start on a full disk records to the journal, and recovers once there is space",
-                 "[daemon][store][reserve]") {
+TEST_CASE_METHOD(
+    SmallRig, "a start on a full disk records to the journal, and recovers once there is space") {
     const auto crashed = directory.path() / "crashed";
     {
         Store store(disk, options(), clock, reads);

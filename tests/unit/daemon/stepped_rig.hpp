@@ -77,14 +77,6 @@ struct SteppedRig : Rig {
         first = clock.raw() + period - fed * period;
     }
 
-    [[nodiscard]] events::Event note(const std::string& text) const {
-        events::Event event;
-        event.type = "note";
-        event.utc = utc;
-        event.details["note"] = text;
-        return event;
-    }
-
     /// @return true if the store accepted the event
     static bool commit(store::Store& store, const events::Event& event) {
         try {

@@ -111,6 +111,12 @@ inline bool has_reason(const status::Status& status, const std::string& part) {
     });
 }
 
+inline events::Event note_at(UtcTime utc, const std::string& text = "") {
+    events::Event event{"note", utc, {}, {}, {}};
+    event.details["note"] = text;
+    return event;
+}
+
 struct Rig {
     test::TemporaryDirectory directory;
     std::filesystem::path root = directory.path() / "data";
@@ -176,6 +182,16 @@ struct Rig {
     }
 };
 
+/// A store that has recorded samples 0 ... 99.
+struct RecordingRig : Rig {
+    store::Store store{files, options(), clock, reads};
+
+    explicit RecordingRig(std::size_t queue_bytes = source::ReadQueue::kCapacity)
+        : Rig(queue_bytes) {
+        record_first(store);
+    }
+};
+
 /// Starts and stops a store, like a daemon without a sensor.  @return the report of its recovery
 inline archive::RecoveryReport recover(files::FileLayer& files, store::Options options,
                                        const source::HostClock& clock) {
@@ -216,9 +232,8 @@ inline std::vector<std::int32_t> archived_counts(const std::filesystem::path& ro
         archive::read_channel(root / "archive", {}, channel, UtcTime(std::chrono::hours(0)),
                               UtcTime(std::chrono::hours(24 * 365 * 200)));
     std::vector<std::int32_t> counts;
-    for (const archive::Segment& segment : data.segments) {
+    for (const archive::Segment& segment : data.segments)
         counts.insert(counts.end(), segment.counts.begin(), segment.counts.end());
-    }
     return counts;
 }
 

@@ -1,12 +1,14 @@
+// Battery and clocks of the host.
+
 #include "daemon/source/battery.hpp"
-
-#include "tests/support/catch.hpp"
-
+#include "daemon/source/host_clock.hpp"
 #include "daemon/status/status.hpp"
+#include "tests/support/catch.hpp"
 #include "tests/support/temporary_directory.hpp"
 
 using namespace a351;
 using namespace a351::daemon;
+using namespace a351::daemon::source;
 
 namespace {
 
@@ -28,7 +30,7 @@ status::Status assessed(std::optional<source::Battery> battery) {
 
 }  // namespace
 
-TEST_CASE("the charge is the mean of the computer's batteries", "[daemon][battery]") {
+TEST_CASE("the charge is the mean of the computer's batteries") {
     const test::TemporaryDirectory supplies;
     CHECK_FALSE(source::read_battery(supplies.path() / "absent"));
     supplies.write("AC/type", "Mains\n");
@@ -50,7 +52,7 @@ TEST_CASE("the charge is the mean of the computer's batteries", "[daemon][batter
     CHECK(two->is_discharging);
 }
 
-TEST_CASE("a battery that discharges is a warning from 15 % on", "[daemon][battery]") {
+TEST_CASE("a battery that discharges is a warning from 15 % on") {
     using source::Battery;
     using Level = status::Status::Level;
     CHECK(assessed({}).level == Level::good);
@@ -60,4 +62,31 @@ TEST_CASE("a battery that discharges is a warning from 15 % on", "[daemon][batte
     CHECK(low.level == Level::warning);
     REQUIRE(low.reasons.size() == 1);
     CHECK(low.reasons[0].english().find("battery") != std::string::npos);
+}
+
+TEST_CASE("on simulated time all clocks show the simulated UTC, synchronised and without error") {
+    const UtcTime start = *parse_rfc3339("2026-03-01T00:00:00Z");
+    const UtcTime host = host_realtime();
+    const HostClock clock(ClockScale{1000.0, start, host});
+    const auto reading = clock.read();
+    CHECK(reading.realtime >= start);
+    CHECK(reading.raw.time_since_epoch() == reading.realtime.time_since_epoch());
+    CHECK(reading.boottime == reading.realtime.time_since_epoch());
+    CHECK(reading.is_synchronised);
+    CHECK(reading.max_error_us == 0);
+    CHECK(clock.raw() >= reading.raw);
+    CHECK(clock.real_span(std::chrono::seconds(2)) == std::chrono::milliseconds(2));
+    CHECK(clock.instrument_span(std::chrono::milliseconds(500)) == std::chrono::seconds(500));
+    CHECK(clock.boot_id() == "simulated");
+}
+
+TEST_CASE("a reading of the host's clocks lies between readings before and after it") {
+    const HostClock clock;
+    const RawTime raw_before = clock.raw();
+    const auto reading = clock.read();
+    CHECK(reading.raw >= raw_before);
+    CHECK(reading.raw <= clock.raw());
+    CHECK(reading.boottime > Nanoseconds(0));
+    CHECK(clock.real_span(std::chrono::seconds(2)) == std::chrono::seconds(2));
+    CHECK_FALSE(clock.boot_id().empty());
 }
