@@ -45,6 +45,42 @@ inline bool is(const json& whole, const std::string& pointer, const std::string&
     return found == expected;
 }
 
+/// Fills a status at the end of the recorder's hour with all values that a recorder can have.
+inline void fill(status::Status& status) {
+    status.version = "1.2";
+    status.last_sample = minute(60);
+    status.now = minute(60) + std::chrono::milliseconds(500);
+    status.received = 1000;
+    status.journaled = 990;
+    status.archived = 900;
+    status.output_rate_hz = 50;
+    status.timing_uncertainty = std::chrono::microseconds(1500);
+    status.host_uncertainty = std::chrono::microseconds(400);
+    status.measured_rate = {Hertz(50.0005), 0.03, std::chrono::hours(24)};
+    status.acceleration = {StandardGravity(0.0015), StandardGravity(-0.00225),
+                           StandardGravity(0.9993)};
+    status.temperature = DegC(31.25);
+    status.oven = source::OvenLinkStatus{
+        .state = source::OvenLinkStatus::State::answering,
+        .trouble = "",
+        .port = "/dev/pts/5",
+        .values = oven::ControllerValues{DegC(42.5), DegC(43.0), Percent(25.0), 0x0100},
+        .decimals = 1,
+        .age = std::chrono::milliseconds(400),
+        .is_stale = false,
+        .polls = {7, 0, 2}};
+    status.outer_oven = status.oven;
+    status.counters.checksum_errors = 2;
+    status.counters.frames = 1000;
+    status.more_counters["archive_records_waiting"] = 5;
+    status.disk_free_bytes = 5'500'000'000;
+    status.disk_reserve = "given_up";
+    status.longest_sync = std::chrono::milliseconds(250);
+    status.disk_work = {8192, 3};
+    status.hourly_disk_work = {27'340'000, 4980};
+    status.battery = {.percent = 79.6, .is_discharging = true};
+}
+
 /// The HTTP interface of a recorder that has one hour of samples.
 struct Page {
     FakeRecorder recorder;

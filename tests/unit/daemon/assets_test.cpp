@@ -2,10 +2,9 @@
 
 #include <fstream>
 #include <iterator>
-#include "tests/support/catch.hpp"
-
 #include "daemon/config/verdict_config.hpp"
 #include "protocol/text/catalogue.hpp"
+#include "tests/support/catch.hpp"
 #include "tests/support/temporary_directory.hpp"
 
 using namespace a351;
@@ -25,7 +24,7 @@ bool has(const std::string& text, const std::string& part) {
 
 }  // namespace
 
-TEST_CASE("the page knows the name of every language", "[daemon][page]") {
+TEST_CASE("the page knows the name of every language") {
     const Assets assets({}, "sesame");
     for (const char* path : {"/", "/boxes"}) {
         const std::string page = body_of(assets, path);
@@ -37,12 +36,9 @@ TEST_CASE("the page knows the name of every language", "[daemon][page]") {
     }
 }
 
-TEST_CASE("page and daemon have the same limit for the age of the data", "[daemon][page]") {
-    CHECK(has(body_of(Assets({}, "sesame"), "/signal.js"),
-              "kStale_s = " + std::to_string(config::kStaleAfter.count()) + ";"));
-}
-
-TEST_CASE("the page and every file it loads are compiled in", "[daemon][page]") {
+TEST_CASE(
+    "the page and every file it loads are compiled in, byte for byte and with the daemon's "
+    "values") {
     const Assets assets({}, "sesame");
     const auto index = assets.answer("/", true);
     CHECK(index.content_type == "text/html; charset=utf-8");
@@ -51,7 +47,13 @@ TEST_CASE("the page and every file it loads are compiled in", "[daemon][page]") 
     CHECK(index.body == body_of(assets, "/index.html"));
     CHECK(assets.answer("/page.js", true).content_type == "text/javascript; charset=utf-8");
     CHECK(assets.answer("/page.css", true).content_type == "text/css; charset=utf-8");
-    CHECK(has(body_of(assets, "/dygraph.min.js"), "Dygraph"));
+    CHECK(has(body_of(assets, "/signal.js"),
+              "kStale_s = " + std::to_string(config::kStaleAfter.count()) + ";"));
+    CHECK(has(body_of(Assets({}, R"("><script>&)"), "/"), R"(content="&quot;>&lt;script>&amp;")"));
+    std::ifstream file("/usr/share/javascript/dygraphs/dygraph.min.js", std::ios::binary);
+    REQUIRE(file);
+    const std::string bytes(std::istreambuf_iterator<char>(file), {});
+    CHECK((body_of(assets, "/dygraph.min.js") == bytes));
     CHECK(has(body_of(assets, "/dygraph.css"), ".dygraph-"));
 
     // Every file that the page loads from the daemon is there.
@@ -70,15 +72,7 @@ TEST_CASE("the page and every file it loads are compiled in", "[daemon][page]") 
     CHECK_FALSE(has(page, " onclick="));
 }
 
-TEST_CASE("a compiled-in file is identical to its source, byte for byte", "[daemon][page]") {
-    const Assets assets({}, "");
-    std::ifstream file("/usr/share/javascript/dygraphs/dygraph.min.js", std::ios::binary);
-    REQUIRE(file);
-    const std::string bytes(std::istreambuf_iterator<char>(file), {});
-    CHECK((body_of(assets, "/dygraph.min.js") == bytes));
-}
-
-TEST_CASE("the overview of boxes may connect to them, and no other page may", "[daemon][page]") {
+TEST_CASE("the overview of boxes may connect to them, and no other page may") {
     const std::vector<std::string> boxes{"http://192.0.2.7:8351", "http://192.0.2.8:8351"};
     const Assets assets({}, "sesame", boxes);
     const auto overview = assets.answer("/boxes", true);
@@ -100,13 +94,7 @@ TEST_CASE("the overview of boxes may connect to them, and no other page may", "[
         CHECK_FALSE(has(overview.body, inline_code));
 }
 
-TEST_CASE("special characters in a token are escaped in its HTML attribute", "[daemon][page]") {
-    const Assets assets({}, R"("><script>&)");
-    CHECK(has(body_of(assets, "/"), R"(content="&quot;>&lt;script>&amp;")"));
-}
-
-TEST_CASE("an assets directory replaces files of known names and exposes no others",
-          "[daemon][page]") {
+TEST_CASE("an assets directory replaces files of known names and exposes no others") {
     const test::TemporaryDirectory directory;
     std::ofstream(directory.path() / "page.js") << "changed";
     std::ofstream(directory.path() / "secret.js") << "secret";

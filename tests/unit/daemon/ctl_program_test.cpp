@@ -9,21 +9,15 @@
 #include <cstdlib>
 #include <future>
 #include <nlohmann/json.hpp>
-#include "tests/support/catch.hpp"
-
-#include "daemon/page/server.hpp"
-#include "protocol/core/input_error.hpp"
 #include "protocol/text/text_file.hpp"
+#include "tests/support/catch.hpp"
 #include "tests/support/temporary_directory.hpp"
-#include "tests/unit/daemon/fake_recorder.hpp"
 #include "tests/unit/daemon/pty.hpp"
+#include "tests/unit/daemon/served.hpp"
 
 using namespace a351;
 using namespace a351::daemon;
-using namespace a351::daemon::live;
-using namespace a351::daemon::page;
 using namespace a351::daemon::status;
-using namespace a351::daemon::survey;
 
 namespace {
 
@@ -38,9 +32,8 @@ Run run(const std::string& arguments) {
     FILE* pipe = popen(command.c_str(), "r");
     REQUIRE(pipe);
     char bytes[4096];
-    while (const auto got = std::fread(bytes, 1, sizeof bytes, pipe)) {
+    while (const auto got = std::fread(bytes, 1, sizeof bytes, pipe))
         result.text.append(bytes, got);
-    }
     const int status = pclose(pipe);
     result.exit = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     CAPTURE(arguments, result.text);
@@ -49,32 +42,20 @@ Run run(const std::string& arguments) {
 }
 
 /// The HTTP interface of a daemon without the rest of the daemon.
-struct FakeDaemon {
+struct FakeDaemon : Served {
     explicit FakeDaemon(Status::Level level = Status::Level::good, UtcTime last = minute(60),
                         const std::vector<text::Message>& troubles = {}) {
+        const std::lock_guard lock(mutex);
         recorder.last = last;
         status.sensor_troubles = troubles;
         status.level = level;
         status.verdict.state = verdict::State::stable;
         status.now = status.last_sample.emplace(last);
-        server.start();
     }
-    Run ctl(const std::string& arguments) const {
-        return run("--url http://127.0.0.1:" + std::to_string(server.port()) + " " + arguments);
+    [[nodiscard]] std::string url() const {
+        return "http://127.0.0.1:" + std::to_string(server.port());
     }
-
-    FakeRecorder recorder;
-    Occupations occupations{recorder, two_sites(), {}};
-    live::Record live{*wire::find_profile("A351"), 50, {}};
-    Status status;
-    Server server{
-        {.listen = {.port = 0}},
-        {.status = [this] { return status; },
-         .occupations = occupations,
-         .live = live,
-         .events = [this] { return recorder.log; },
-         .gravity_so_far =
-             [] { return R"({"as_of_utc":null,"reason":"no_sites","stays":[],"findings":[]})"; }}};
+    Run ctl(const std::string& arguments) const { return run("--url " + url() + " " + arguments); }
 };
 
 bool has(const Run& result, const std::string& text) {
@@ -84,7 +65,7 @@ bool has(const Run& result, const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("the exit code of status is that of a monitoring plugin", "[daemon][ctl]") {
+TEST_CASE("the exit code of status is that of a monitoring plugin") {
     for (const auto& [level, exit] :
          {std::pair(Status::Level::good, 0), std::pair(Status::Level::warning, 1),
           std::pair(Status::Level::fault, 2)}) {
@@ -99,7 +80,7 @@ TEST_CASE("the exit code of status is that of a monitoring plugin", "[daemon][ct
     CHECK(run("--url ftp://127.0.0.1 status").exit == 3);
 }
 
-TEST_CASE("with LOOK status and survey have the commands that answer it", "[daemon][ctl]") {
+TEST_CASE("with LOOK status and survey have the commands that answer it") {
     CHECK_FALSE(has(FakeDaemon().ctl("survey"), "signal"));
     const FakeDaemon daemon(Status::Level::good, minute(60), {"the x axis is dead"});
     for (const char* command : {"status", "survey"}) {
@@ -108,7 +89,7 @@ TEST_CASE("with LOOK status and survey have the commands that answer it", "[daem
     }
 }
 
-TEST_CASE("a terminal that takes no output is not a good state", "[daemon][ctl]") {
+TEST_CASE("a terminal that takes no output is not a good state") {
     const FakeDaemon daemon;
     CHECK(daemon.ctl("status > /dev/full").exit == 3);
     CHECK(daemon.ctl("list > /dev/full").exit == 1);
@@ -116,8 +97,8 @@ TEST_CASE("a terminal that takes no output is not a good state", "[daemon][ctl]"
           std::string::npos);
 }
 
-TEST_CASE("other commands exit with 0 if done, 1 if refused, 2 for wrong usage, 3 without a daemon",
-          "[daemon][ctl]") {
+TEST_CASE(
+    "other commands exit with 0 if done, 1 if refused, 2 for wrong usage, 3 without a daemon") {
     FakeDaemon daemon;
     const auto started =
         daemon.ctl("start No.0 --at 2026-03-14T08:10:00Z --operator 'M. Ito' --note windy");
@@ -160,8 +141,7 @@ TEST_CASE("other commands exit with 0 if done, 1 if refused, 2 for wrong usage, 
     CHECK(has(run("fly"), "a351ctl: fly is not a command; allowed: status, start, stop,"));
     CHECK(has(run(""), "a351ctl: no command is given; allowed: status"));
     CHECK(has(run("stop now"), "a351ctl: now is not an argument of stop; see a351ctl stop --help"));
-    CHECK(has(run("restore"),
-              "a351ctl: the key of the stay is missing; a351ctl list shows it"));
+    CHECK(has(run("restore"), "a351ctl: the key of the stay is missing; a351ctl list shows it"));
     CHECK(run("restore").exit == 2);
     const auto nobody = run("--url http://127.0.0.1:1 stop");
     CHECK(nobody.exit == 3);
@@ -170,10 +150,18 @@ TEST_CASE("other commands exit with 0 if done, 1 if refused, 2 for wrong usage, 
     CHECK(run("--help").exit == 0);
     CHECK(has(run("--version"), A351_VERSION));
     CHECK(daemon.ctl("--clock scaled:60@2026-03-14T08:00:00Z sites").exit == 0);
+    CHECK(daemon.ctl("--token 0123456789abcdef discard").exit == 1);
+    setenv("A351_URL", daemon.url().c_str(), 1);
+    CHECK(has(run("sites"), "979948.000"));
+    unsetenv("A351_URL");
+    daemon.server.stop();
+    const events::Event& start = daemon.recorder.log.front();
+    CHECK(start.utc == minute(10));
+    CHECK(start.details.at("operator") == "M. Ito");
+    CHECK(start.details.at("note") == "windy");
 }
 
-TEST_CASE("a daemon that hangs is named, and an order that it may still carry out",
-          "[daemon][ctl]") {
+TEST_CASE("a daemon that hangs is named, and an order that it may still carry out") {
     // The kernel accepts the connections, and nobody reads them.
     const int listener = ::socket(AF_INET, SOCK_STREAM, 0);
     sockaddr_in address{};
@@ -198,37 +186,34 @@ TEST_CASE("a daemon that hangs is named, and an order that it may still carry ou
     ::close(listener);
 }
 
-TEST_CASE("several daemons start, set up and stop at one common instant", "[daemon][ctl]") {
+TEST_CASE("several daemons start, set up and stop at one common instant") {
     FakeDaemon one, other(Status::Level::good, minute(60) - std::chrono::seconds(4));
-    const auto address = [](const FakeDaemon& daemon) {
-        return "http://127.0.0.1:" + std::to_string(daemon.server.port());
-    };
-    const std::string both = "--url " + address(one) + " --url " + address(other) + " ";
+    const std::string both = "--url " + one.url() + " --url " + other.url() + " ";
     const auto started = run(both + "start No.0 --at 2026-03-14T08:20:00Z");
     CHECK(started.exit == 0);
     for (const FakeDaemon* daemon : {&one, &other})
-        CHECK(has(started, address(*daemon) + ": started No.0 at 2026-03-14T08:20:00.0Z"));
+        CHECK(has(started, daemon->url() + ": started No.0 at 2026-03-14T08:20:00.0Z"));
     CHECK(run(both + "setup --at 2026-03-14T08:30:00Z").exit == 0);
     CHECK(one.ctl("stop").exit == 0);
     const auto stopped = run(both + "stop");
     CHECK(stopped.exit == 1);
-    CHECK(has(stopped, "a351ctl: " + address(one) + ": no occupation is running"));
-    CHECK(has(stopped, address(other) + ": stopped No.0 (stay 1) at 2026-03-14T08:59:56.0Z"));
+    CHECK(has(stopped, "a351ctl: " + one.url() + ": no occupation is running"));
+    CHECK(has(stopped, other.url() + ": stopped No.0 (stay 1) at 2026-03-14T08:59:56.0Z"));
     CHECK(run(both + "list").exit == 2);
     // One that is dead or gets no samples does not hinder the others; the rest is repeated.
     const FakeDaemon unplugged(Status::Level::good, minute(50));
-    const auto partly = run(both + "--url http://127.0.0.1:1 --url " + address(unplugged) +
+    const auto partly = run(both + "--url http://127.0.0.1:1 --url " + unplugged.url() +
                             " start No.1 --at 2026-03-14T09:00:00Z");
     CHECK(partly.exit == 1);
     CHECK(has(partly, "a351ctl: http://127.0.0.1:1: no daemon answers at"));
-    CHECK(has(partly, "a351ctl: " + address(unplugged) + ": "));
+    CHECK(has(partly, "a351ctl: " + unplugged.url() + ": "));
     CHECK(has(partly, "is later than the last sample"));
-    CHECK(has(partly, address(one) + ": started No.1 at"));
+    CHECK(has(partly, one.url() + ": started No.1 at"));
     CHECK(has(partly, "a351ctl: repeat it with --at 2026-03-14T09:00:00.000000000Z; boxes that"));
     CHECK(run("--url http://127.0.0.1:1 --url http://127.0.0.1:2 start No.0").exit == 3);
     const auto noted = run(both + "note 'wind from the west'");
     CHECK(noted.exit == 0);
-    CHECK(has(noted, address(other) + ": "));
+    CHECK(has(noted, other.url() + ": "));
     one.server.stop();
     other.server.stop();
     CHECK(one.recorder.log.size() == 5);
@@ -236,26 +221,22 @@ TEST_CASE("several daemons start, set up and stop at one common instant", "[daem
           minute(60) - std::chrono::seconds(4));  // The last sample that both have.
 }
 
-TEST_CASE("a box with a clock that is far ahead or behind does not stop the order to the others",
-          "[daemon][ctl]") {
-    const auto address = [](const FakeDaemon& daemon) {
-        return "http://127.0.0.1:" + std::to_string(daemon.server.port());
-    };
+TEST_CASE("a box with a clock that is far ahead or behind does not stop the order to the others") {
     FakeDaemon one, other(Status::Level::good, minute(60) - std::chrono::seconds(1));
     for (const int last : {50, 70}) {
         FakeDaemon wrong(Status::Level::good, minute(last));
-        const auto ordered = run("--url " + address(wrong) + " --url " + address(one) + " --url " +
-                                 address(other) + " start No.0");
+        const auto ordered = run("--url " + wrong.url() + " --url " + one.url() + " --url " +
+                                 other.url() + " start No.0");
         CAPTURE(ordered.text);
         CHECK(ordered.exit == 1);
         CHECK(has(ordered,
-                  "a351ctl: " + address(wrong) + ": left out: its last sample is " +
+                  "a351ctl: " + wrong.url() + ": left out: its last sample is " +
                       (last == 50 ? "599 s behind the others;" : "600 s ahead of the others;")));
         for (const FakeDaemon* daemon : {&one, &other})
             CHECK(has(ordered,
-                      address(*daemon) + (last == 50 ? ": started No.0 at 2026-03-14T08:59:59.0Z"
-                                                     : ": No.0 (stay 1) is running since "
-                                                       "2026-03-14T08:59:59.0Z, as ordered")));
+                      daemon->url() + (last == 50 ? ": started No.0 at 2026-03-14T08:59:59.0Z"
+                                                  : ": No.0 (stay 1) is running since "
+                                                    "2026-03-14T08:59:59.0Z, as ordered")));
         CHECK_FALSE(has(ordered, "repeat it with"));  // Its data have another time there.
         wrong.server.stop();
         CHECK(wrong.recorder.log.empty());
@@ -263,13 +244,12 @@ TEST_CASE("a box with a clock that is far ahead or behind does not stop the orde
     // With two boxes, the one that receives samples gives the instant.
     FakeDaemon unplugged(Status::Level::good, minute(40));
     unplugged.status.now = minute(60);
-    const auto stopped =
-        run("--url " + address(unplugged) + " --url " + address(one) + " start No.1");
+    const auto stopped = run("--url " + unplugged.url() + " --url " + one.url() + " start No.1");
     CHECK(has(stopped, "left out: its last sample is 1200 s behind the others"));
-    CHECK(has(stopped, address(one) + ": No.0 (stay 1) has been running since"));
+    CHECK(has(stopped, one.url() + ": No.0 (stay 1) has been running since"));
 }
 
-TEST_CASE("a site is added in the terminal, and a refusal is one line", "[daemon][ctl]") {
+TEST_CASE("a site is added in the terminal, and a refusal is one line") {
     FakeDaemon daemon;
     const test::TemporaryDirectory directory;
     const auto file = directory.write(
@@ -288,8 +268,7 @@ TEST_CASE("a site is added in the terminal, and a refusal is one line", "[daemon
     CHECK(daemon.ctl("site add C" + place).exit == 0);
     CHECK(has(daemon.ctl("sites"), "C     140.125000     36.250000     -"));
     for (const std::string wrong : {"A", "'a,b'", "\"$(printf '\\203\\145')\"", "''"}) {
-        const auto refused = run("--url http://127.0.0.1:" + std::to_string(daemon.server.port()) +
-                                 " site add " + wrong + place);
+        const auto refused = daemon.ctl("site add " + wrong + place);
         CAPTURE(wrong, refused.text);
         CHECK(refused.exit == 1);
         CHECK(std::count(refused.text.begin(), refused.text.end(), '\n') == 1);
@@ -300,30 +279,12 @@ TEST_CASE("a site is added in the terminal, and a refusal is one line", "[daemon
     CHECK(daemon.occupations.sites().size() == 3);
 }
 
-TEST_CASE("options of the command line are in the recorded event", "[daemon][ctl]") {
-    FakeDaemon daemon;
-    daemon.ctl("start No.0 --at 2026-03-14T08:10:00Z --operator 'M. Ito' --note windy");
-    daemon.server.stop();
-    REQUIRE(daemon.recorder.log.size() == 1);
-    CHECK(daemon.recorder.log.front().utc == minute(10));
-    CHECK(daemon.recorder.log.front().details.at("operator") == "M. Ito");
-    CHECK(daemon.recorder.log.front().details.at("note") == "windy");
-}
-
-TEST_CASE("a command with a wrong token is refused", "[daemon][ctl]") {
-    const FakeDaemon daemon;
-    CHECK(daemon.ctl("--token 0123456789abcdef discard").exit == 1);
-}
-
-TEST_CASE("the status is coloured on a terminal that can show colours, and nowhere else",
-          "[daemon][ctl]") {
+TEST_CASE("the status is coloured on a terminal that can show colours, and nowhere else") {
     const FakeDaemon daemon;
     const auto shown = [&](const std::string& environment) {
         Pty pty;
-        const std::string command =
-            "env -u NO_COLOR " + environment +
-            " " A351CTL " --url http://127.0.0.1:" + std::to_string(daemon.server.port()) +
-            " status > " + pty.path() + " 2>&1";
+        const std::string command = "env -u NO_COLOR " + environment + " " A351CTL " --url " +
+                                    daemon.url() + " status > " + pty.path() + " 2>&1";
         CHECK(std::system(command.c_str()) == 0);
         const auto bytes = pty.read(std::chrono::seconds(1));
         std::string text;
@@ -335,11 +296,4 @@ TEST_CASE("the status is coloured on a terminal that can show colours, and nowhe
     CHECK(shown("TERM=xterm NO_COLOR=1").find('\x1b') == std::string::npos);
     CHECK(shown("TERM=dumb").find('\x1b') == std::string::npos);
     CHECK(daemon.ctl("status").text.find('\x1b') == std::string::npos);
-}
-
-TEST_CASE("A351_URL is the default of --url", "[daemon][ctl]") {
-    const FakeDaemon daemon;
-    setenv("A351_URL", ("http://127.0.0.1:" + std::to_string(daemon.server.port())).c_str(), 1);
-    CHECK(has(run("sites"), "979948.000"));
-    unsetenv("A351_URL");
 }

@@ -1,21 +1,16 @@
-#include <algorithm>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
-#include "tests/support/catch.hpp"
-
 #include "daemon/ctl/client.hpp"
 #include "daemon/ctl/screen.hpp"
 #include "daemon/ctl/survey_text.hpp"
 #include "daemon/ctl/when.hpp"
-#include "daemon/page/server.hpp"
 #include "protocol/core/input_error.hpp"
-#include "tests/unit/daemon/fake_recorder.hpp"
+#include "tests/support/catch.hpp"
 
 using namespace a351;
 using namespace a351::daemon::ctl;
 
-TEST_CASE("the status screen shows the rows of the daemon, coloured by their level",
-          "[daemon][ctl]") {
+TEST_CASE("the status screen shows the rows of the daemon, coloured by their level") {
     const auto answer = nlohmann::json::parse(R"({"level":"warning","rows":[
         {"label":"state","text":"warning: disk nearly full","text_parts":["warning: disk nearly full"],"level":"warning"},
         {"label":"disk","text":"free 5.5 GB","text_parts":[["free",[]]," 5.5 GB"],"level":""}]})");
@@ -27,7 +22,7 @@ TEST_CASE("the status screen shows the rows of the daemon, coloured by their lev
     CHECK(plugin_status({{"level", 7}}) == 3);
 }
 
-TEST_CASE("a stay is one row with its gravity", "[daemon][ctl]") {
+TEST_CASE("a stay is one row with its gravity") {
     const auto set_up = [](const char* start, const char* end) {
         return nlohmann::json{{"start", start}, {"end", end}};
     };
@@ -43,7 +38,7 @@ TEST_CASE("a stay is one row with its gravity", "[daemon][ctl]") {
     CHECK(occupation_table({{"occupations", {stay}}}).find("a      c    -") != std::string::npos);
 }
 
-TEST_CASE("control characters in names do not reach the terminal", "[daemon][ctl]") {
+TEST_CASE("control characters in names do not reach the terminal") {
     CHECK(printable("No.0 \xC3\xA9") == "No.0 \xC3\xA9");
     CHECK(printable("\x1b[2J\x07\n\x7f") == "?[2J???");
     CHECK(printable("\xC2\x9B"
@@ -52,7 +47,7 @@ TEST_CASE("control characters in names do not reach the terminal", "[daemon][ctl
     CHECK(status_screen(hostile, false).find('\x1b') == std::string::npos);
 }
 
-TEST_CASE("the URL of a daemon is http, a host and an optional port", "[daemon][ctl]") {
+TEST_CASE("the URL of a daemon is http, a host and an optional port") {
     CHECK(parse_url("http://127.0.0.1:8351").authority() == "127.0.0.1:8351");
     CHECK(parse_url("http://[::1]:8351/").authority() == "[::1]:8351");
     CHECK(parse_url("http://gravbox").authority() == "gravbox:80");
@@ -64,7 +59,7 @@ TEST_CASE("the URL of a daemon is http, a host and an optional port", "[daemon][
     }
 }
 
-TEST_CASE("an instant is read as RFC 3339, as a local time or as a time ago", "[daemon][ctl]") {
+TEST_CASE("an instant is read as RFC 3339, as a local time or as a time ago") {
     const char* const zone = std::getenv("TZ");
     const std::string before = zone == nullptr ? "" : zone;
     setenv("TZ", "JST-9", 1);
@@ -111,7 +106,7 @@ TEST_CASE("an instant is read as RFC 3339, as a local time or as a time ago", "[
     tzset();
 }
 
-TEST_CASE("the gravity so far is a table with findings first and remarks behind", "[daemon][ctl]") {
+TEST_CASE("the gravity so far is a table with findings first and remarks behind") {
     const auto answer = nlohmann::json::parse(R"({
         "as_of_utc": "2026-03-01T12:03:10.000Z", "data_to_utc": "2026-03-01T12:03:09.500Z",
         "reason": "killed", "reason_text": "signal 9 ended it", "model": "day",
@@ -134,14 +129,10 @@ TEST_CASE("the gravity so far is a table with findings first and remarks behind"
           "  No.5? (12): no samples\n"
           "no new figures: killed: signal 9 ended it\n"
           "as of 2026-03-01T12:03:10.000Z, data up to 2026-03-01T12:03:09.500Z, model day\n");
-}
-
-TEST_CASE("before the first stay the gravity so far is one sentence and its time",
-          "[daemon][ctl]") {
-    const auto answer = nlohmann::json::parse(R"({
+    const auto before_the_first_stay = nlohmann::json::parse(R"({
         "as_of_utc": "2026-03-01T12:03:10.000Z", "data_to_utc": null, "reason": "no_stay",
         "reason_text": "no stay was started", "reason_parts": [["no stay was started", []]],
         "model": null, "stays": [], "findings": []})");
-    CHECK(survey_text(answer) ==
+    CHECK(survey_text(before_the_first_stay) ==
           "no new figures: no stay was started\nas of 2026-03-01T12:03:10.000Z, without data\n");
 }

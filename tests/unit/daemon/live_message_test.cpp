@@ -1,9 +1,7 @@
 #include "daemon/page/live_message.hpp"
 
 #include <cstring>
-#include <numeric>
 #include "tests/support/catch.hpp"
-
 #include "tests/unit/daemon/live_records.hpp"
 
 using namespace a351::daemon;
@@ -11,7 +9,7 @@ using namespace a351;
 using namespace a351::daemon::live;
 using namespace a351::daemon::page;
 
-TEST_CASE("a block of samples is encoded as the format says, byte for byte", "[daemon][live]") {
+TEST_CASE("a block of samples is encoded as the format says, byte for byte") {
     live::Block block;
     block.first_index = 0x0102030405060708;
     block.first_time = *parse_rfc3339("1970-01-01T00:00:01.5Z");
@@ -32,8 +30,7 @@ TEST_CASE("a block of samples is encoded as the format says, byte for byte", "[d
     CHECK(std::memcmp(bytes.data(), expected, sizeof expected) == 0);
 }
 
-TEST_CASE("a message with the largest number of samples just fits the size limit",
-          "[daemon][live]") {
+TEST_CASE("a message with the largest number of samples just fits the size limit") {
     live::Block block;
     for (auto& channel : block.counts) channel.resize(kMostSamplesPerMessage);
     const auto size = encoded(block).size();
@@ -41,8 +38,7 @@ TEST_CASE("a message with the largest number of samples just fits the size limit
     CHECK(size + kLiveChannelCount * sizeof(std::int32_t) > 64 * 1024);
 }
 
-TEST_CASE("each viewer has its own position, and all viewers read the same bytes",
-          "[daemon][live]") {
+TEST_CASE("each viewer has its own position, and all viewers read the same bytes") {
     LiveMessages messages;
     std::uint64_t one = messages.end(), other = one, missed = 0;
     CHECK_FALSE(messages.next(one, missed));
@@ -57,7 +53,7 @@ TEST_CASE("each viewer has its own position, and all viewers read the same bytes
     CHECK(missed == 0);
 }
 
-TEST_CASE("a viewer that reads too slowly misses messages, which are counted", "[daemon][live]") {
+TEST_CASE("a viewer that reads too slowly misses messages, which are counted") {
     LiveMessages messages;
     std::uint64_t position = messages.end(), missed = 0;
     for (int i = 0; i < 1000; ++i) messages.push({.bytes = std::to_string(i)});
@@ -67,7 +63,7 @@ TEST_CASE("a viewer that reads too slowly misses messages, which are counted", "
     CHECK(missed == 1000 - kMostMessagesKept);
 }
 
-TEST_CASE("fewer messages are kept if they are large, but always the newest", "[daemon][live]") {
+TEST_CASE("fewer messages are kept if they are large, but always the newest") {
     LiveMessages messages;
     std::uint64_t position = messages.end(), missed = 0;
     for (int i = 0; i < 100; ++i) messages.push({.bytes = std::string(kLargestLiveMessage, 'x')});

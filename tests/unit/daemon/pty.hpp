@@ -18,9 +18,8 @@ namespace a351 {
 class Pty {
 public:
     Pty() : descriptor_(posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK)) {
-        if (descriptor_ < 0 || grantpt(descriptor_) != 0 || unlockpt(descriptor_) != 0) {
+        if (descriptor_ < 0 || grantpt(descriptor_) != 0 || unlockpt(descriptor_) != 0)
             throw std::runtime_error("no pseudo-terminal");
-        }
         path_ = ptsname(descriptor_);
     }
     ~Pty() { close_master(); }

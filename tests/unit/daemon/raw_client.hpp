@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -41,16 +42,12 @@ public:
 
     /// Returns the next `count` bytes; fewer if the connection ends or nothing comes for 20 s.
     std::string take(std::size_t count) const {
-        std::string received(count, '\0');
-        std::size_t filled = 0;
-        while (filled < count) {
-            pollfd ready{socket_, POLLIN, 0};
-            if (::poll(&ready, 1, 20'000) <= 0) break;
-            const auto got = ::recv(socket_, received.data() + filled, count - filled, 0);
-            if (got <= 0) break;
-            filled += static_cast<std::size_t>(got);
+        std::string received;
+        while (received.size() < count) {
+            const auto more = receive(count - received.size());
+            if (!more || more->empty()) break;
+            received += *more;
         }
-        received.resize(filled);
         return received;
     }
 
@@ -58,34 +55,38 @@ public:
     /// "(no end)".
     std::string rest() const {
         std::string received;
-        char bytes[4096];
         for (;;) {
-            pollfd ready{socket_, POLLIN, 0};
-            if (::poll(&ready, 1, 20'000) <= 0) return received + "(no end)";
-            const auto got = ::recv(socket_, bytes, sizeof bytes, 0);
-            if (got <= 0) return received;
-            received.append(bytes, static_cast<std::size_t>(got));
+            const auto more = receive(4096);
+            if (!more) return received + "(no end)";
+            if (more->empty()) return received;
+            received += *more;
         }
     }
 
     /// Returns one response.  Its body is read by its Content-Length.
     std::string response() const {
         std::string received;
-        char byte = 0;
         while (received.find("\r\n\r\n") == std::string::npos) {
-            pollfd ready{socket_, POLLIN, 0};
-            if (::poll(&ready, 1, 20'000) <= 0 || ::recv(socket_, &byte, 1, 0) <= 0) {
-                return received;
-            }
+            const std::string byte = take(1);
+            if (byte.empty()) return received;
             received += byte;
         }
         const auto mark = received.find("Content-Length: ");
-        auto left = mark == std::string::npos ? 0UL : std::stoul(received.substr(mark + 16));
-        for (; left > 0 && ::recv(socket_, &byte, 1, 0) > 0; --left) received += byte;
-        return received;
+        return mark == std::string::npos ? received
+                                         : received + take(std::stoul(received.substr(mark + 16)));
     }
 
 private:
+    /// Returns bytes that have come; none at the end, std::nullopt if nothing comes for 20 s.
+    std::optional<std::string> receive(std::size_t most) const {
+        std::string bytes(most, '\0');
+        pollfd ready{socket_, POLLIN, 0};
+        if (::poll(&ready, 1, 20'000) <= 0) return std::nullopt;
+        const auto got = ::recv(socket_, bytes.data(), most, 0);
+        bytes.resize(got > 0 ? static_cast<std::size_t>(got) : 0);
+        return bytes;
+    }
+
     int socket_;
     bool is_open_ = false;
 };

@@ -25,16 +25,19 @@ struct Served {
         return options;
     }
     page::ApiSources sources() {
-        return {.status =
-                    [this] {
-                        const std::lock_guard lock(mutex);
-                        if (is_failing) throw std::runtime_error("no status");
-                        return status;
-                    },
-                .occupations = occupations,
-                .live = live,
-                .events = [] { return std::vector<events::Event>{}; },
-                .bundle = [this] { return bundle(); }};
+        return {
+            .status =
+                [this] {
+                    const std::lock_guard lock(mutex);
+                    if (is_failing) throw std::runtime_error("no status");
+                    return status;
+                },
+            .occupations = occupations,
+            .live = live,
+            .events = [this] { return recorder.log; },
+            .gravity_so_far =
+                [] { return R"({"as_of_utc":null,"reason":"no_sites","stays":[],"findings":[]})"; },
+            .bundle = [this] { return bundle(); }};
     }
 
     [[nodiscard]] std::string host() const {

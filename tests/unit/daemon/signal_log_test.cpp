@@ -2,7 +2,6 @@
 
 #include <map>
 
-#include "tests/support/catch.hpp"
 #include "tests/unit/daemon/asked_page.hpp"
 #include "tests/unit/live/live_samples.hpp"
 
@@ -10,8 +9,20 @@ using namespace a351;
 using namespace a351::daemon;
 using namespace a351::daemon::page;
 
-TEST_CASE("the log has each word with the time of the data, however seldom it is written",
-          "[daemon][page]") {
+namespace {
+
+/// Gives the page a second of samples at 50 Hz of a box that is shaken.
+void take_second(Page& page, int second, double x_mgal, double z_mgal, double shaken_mgal = 0.0) {
+    for (std::int64_t i = 50 * second; i < 50 * (second + 1); ++i) {
+        auto sample = live::placed(i, x_mgal + shaken_mgal * std::sin(double(i)), 0.0, z_mgal);
+        sample.counts[3] += second / 60 % 2;  // Else the temperature seems to be frozen.
+        page.live.take(sample);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("the log has each word with the time of the data, however seldom it is written") {
     const auto logged = [](int step_s) {
         Page page;
         std::vector<std::string> words;
@@ -26,11 +37,7 @@ TEST_CASE("the log has each word with the time of the data, however seldom it is
                 page.recorder.last = minute(25);
                 page.ask(post("/api/occupation/start", R"({"site":"No.0"})"));
             }
-            for (std::int64_t i = 50 * second; i < 50 * (second + 1); ++i) {
-                auto sample = live::placed(i, 100.0, 0.0, 980000.0);
-                sample.counts[3] += second / 60 % 2;  // Else the temperature seems to be frozen.
-                page.live.take(sample);
-            }
+            take_second(page, second, 100.0, 980000.0);
             if (second % step_s == 0) log.advance(page.status, {});
         }
         log.advance(page.status, {});
@@ -42,18 +49,14 @@ TEST_CASE("the log has each word with the time of the data, however seldom it is
     CHECK(logged(600) == often);
 }
 
-TEST_CASE("a start while a stay runs says when the box was carried away, and the rows how to stop then",
-          "[daemon][page]") {
+TEST_CASE(
+    "a start while a stay runs says when the box was carried away, and the rows how to stop then") {
     Page page;
     page.recorder.last = minute(10);
     page.ask(post("/api/occupation/start", R"({"site":"No.0"})"));
     const auto record = [&](int from_s, int to_s, double shaken_mgal) {
-        for (std::int64_t i = 50 * from_s; i < 50 * to_s; ++i) {
-            auto sample =
-                live::placed(i, 100.0 + shaken_mgal * std::sin(double(i)), 0.0, 980000.0);
-            sample.counts[3] += static_cast<std::int32_t>(i / 3000 % 2);
-            page.live.take(sample);
-        }
+        for (int second = from_s; second < to_s; ++second)
+            take_second(page, second, 100.0, 980000.0, shaken_mgal);
         page.status.now = page.status.last_sample.emplace(live::after(to_s));
         page.status.verdict.state = verdict::State::stable;
         return page.ask(post("/api/occupation/start", R"({"site":"No.1"})"), 409)["error"]
@@ -71,8 +74,7 @@ TEST_CASE("a start while a stay runs says when the box was carried away, and the
     CHECK(commands.ends_with("Z, or a351ctl not-moved"));
 }
 
-TEST_CASE("a turn that was forgotten, a box on its side and a face entered wrong are LOOK",
-          "[daemon][page][faces]") {
+TEST_CASE("a turn that was forgotten, a box on its side and a face entered wrong are LOOK") {
     struct Box {
         double x_mgal, z_mgal;
     };
@@ -118,12 +120,7 @@ TEST_CASE("a turn that was forgotten, a box on its side and a face entered wrong
             };
             const bool is_in_hands = is_in(turned_s, box.z_mgal != kUp.z_mgal) ||
                                      is_in(1760, box.z_mgal != kDown.z_mgal);
-            for (std::int64_t i = 50 * second; i < 50 * (second + 1); ++i) {
-                const double shaken_mgal = is_in_hands ? 20000.0 * std::sin(double(i)) : 0.0;
-                auto sample = live::placed(i, is.x_mgal + shaken_mgal, 0.0, is.z_mgal);
-                sample.counts[3] += second / 60 % 2;
-                page.live.take(sample);
-            }
+            take_second(page, second, is.x_mgal, is.z_mgal, is_in_hands ? 20000.0 : 0.0);
             log.advance(page.status, {});
         }
         CHECK(lifted ==

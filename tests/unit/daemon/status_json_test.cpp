@@ -4,34 +4,14 @@
 
 using namespace a351;
 using namespace a351::daemon;
-using namespace a351::daemon::source;
-using namespace a351::daemon::status;
-using namespace a351::daemon::verdict;
 
-TEST_CASE("every fixed field of the status is there before the first sample", "[daemon][page]") {
+TEST_CASE("every fixed field of the status is there before the first sample") {
     Page page;
     const auto status = page.ask(get("/api/status"));
-    for (const char* field : {"/api",
-                              "/version",
-                              "/level",
-                              "/session",
-                              "/received",
-                              "/journaled",
-                              "/archived",
-                              "/timing/state",
-                              "/timing/uncertainty_ms",
-                              "/details/state",
-                              "/details/reasons",
-                              "/occupation",
-                              "/counters/gaps",
-                              "/counters/checksum_errors",
-                              "/counters/bytes_skipped",
-                              "/counters/duplicates",
-                              "/oven",
-                              "/device/port",
-                              "/disk/free_bytes",
-                              "/disk/reserve",
-                              "/disk/longest_sync_ms"}) {
+    for (const char* field :
+         {"/api", "/version", "/journaled", "/archived", "/oven", "/counters/gaps",
+          "/counters/checksum_errors", "/counters/bytes_skipped", "/counters/duplicates",
+          "/device/port", "/disk/free_bytes", "/disk/reserve", "/disk/longest_sync_ms"}) {
         CAPTURE(field);
         CHECK(status.contains(json::json_pointer(field)));
     }
@@ -47,19 +27,10 @@ TEST_CASE("every fixed field of the status is there before the first sample", "[
     CHECK(status["details"]["reasons"].size() == 1);
 }
 
-TEST_CASE("the status gives the oven's values with units, and null for a doubtful temperature",
-          "[daemon][page]") {
+TEST_CASE("the status gives the oven's values with units, and null for a doubtful temperature") {
     Page page;
     CHECK(page.ask(get("/api/status"))["oven"] == json{{"state", "disabled"}});
-    page.status.oven = OvenLinkStatus{
-        .state = OvenLinkStatus::State::answering,
-        .trouble = "",
-        .port = "/dev/pts/5",
-        .values = oven::ControllerValues{DegC(42.5), DegC(43.0), Percent(25.0), 0x0100},
-        .decimals = 1,
-        .age = std::chrono::milliseconds(1500),
-        .is_stale = false,
-        .polls = {7, 0, 2}};
+    fill(page.status);
     CHECK(page.ask(get("/api/status"))["oven"] == json{{"state", "answering"},
                                                        {"trouble", ""},
                                                        {"port", "/dev/pts/5"},
@@ -69,7 +40,7 @@ TEST_CASE("the status gives the oven's values with units, and null for a doubtfu
                                                        {"status_word", 256},
                                                        {"has_input_error", false},
                                                        {"decimals", 1},
-                                                       {"age_s", 1.5},
+                                                       {"age_s", 0.4},
                                                        {"is_stale", false},
                                                        {"polls",
                                                         {{"answered", 7},
@@ -88,38 +59,27 @@ TEST_CASE("the status gives the oven's values with units, and null for a doubtfu
     page.status.oven->age.reset();
     const auto silent = page.ask(get("/api/status"));
     for (const char* field : {"process_value_degc", "set_point_degc", "heating_percent",
-                              "status_word", "has_input_error", "age_s"}) {
+                              "status_word", "has_input_error", "age_s"})
         CHECK(silent["oven"].at(field).is_null());
-    }
 }
 
-TEST_CASE("the status carries values with their units", "[daemon][page]") {
+TEST_CASE("the status carries values with their units") {
     Page page;
-    page.status.level = Status::Level::warning;
+    fill(page.status);
+    page.status.level = status::Status::Level::warning;
     page.status.verdict.state = verdict::State::stable;
     page.status.reasons = {"disk nearly full"};
-    page.status.now = minute(60) + std::chrono::milliseconds(500);
-    page.status.last_sample = minute(60);
-    page.status.received = 179'999;
-    page.status.journaled = 179'990;
     page.status.timing_state = timing::State::locked;
-    page.status.timing_uncertainty = std::chrono::microseconds(1500);
-    page.status.host_uncertainty = std::chrono::microseconds(400);
     page.status.clock_step = {page.status.now, page.status.now - std::chrono::seconds(80)};
-    page.status.measured_rate = {Hertz(50.0005), 0.03, std::chrono::hours(24)};
     page.status.declared_rate_hz = 50.00025;
     page.status.rate_advice = "change it";
     page.status.start_up_test = "HARD_ERR";
-    page.status.acceleration = {StandardGravity(0.001), StandardGravity(-0.002),
-                                StandardGravity(0.9993)};
-    page.status.temperature = DegC(31.25);
-    page.status.counters.gaps = 3;
     page.status.more_counters["reconnects"] = 2;
     page.occupations.start("No.1", {"M. Ito", "windy"}, minute(50));
     const auto status = page.ask(get("/api/status"));
     CHECK(is(status, "/level", R"("warning")"));
     CHECK(is(status, "/reasons", R"(["disk nearly full"])"));
-    CHECK(is(status, "/received", "179999"));
+    CHECK(is(status, "/received", "1000"));
     CHECK(is(status, "/device/start_up_test", R"("HARD_ERR")"));
     CHECK(is(status, "/timing/state", R"("locked")"));
     CHECK(is(status, "/timing/uncertainty_ms", "1.5"));
@@ -132,11 +92,11 @@ TEST_CASE("the status carries values with their units", "[daemon][page]") {
     CHECK(is(status, "/timing/rate/advice", R"("change it")"));
     CHECK(is(status, "/details/state", R"("stable")"));
     CHECK(is(status, "/details/reasons", "[]"));
-    CHECK(status["sample"]["acceleration_mg"][0].get<double>() == Approx(1.0).epsilon(1e-15));
+    CHECK(status["sample"]["acceleration_mg"][0].get<double>() == Approx(1.5).epsilon(1e-15));
     CHECK(status["sample"]["acceleration_mg"][2].get<double>() == Approx(999.3).epsilon(1e-15));
     CHECK(is(status, "/sample/age_s", "0.5"));
     CHECK(is(status, "/sample/temperature_degc", "31.25"));
-    CHECK(is(status, "/counters/gaps", "3"));
+    CHECK(is(status, "/counters/checksum_errors", "2"));
     CHECK(is(status, "/counters/reconnects", "2"));
     CHECK(is(status, "/occupation/site", R"("No.1")"));
     CHECK(is(status, "/occupation/start", R"("2026-03-14T08:50:00.000Z")"));
@@ -153,8 +113,7 @@ TEST_CASE("the status carries values with their units", "[daemon][page]") {
     CHECK(is(status, "/occupation/session", '"' + page.recorder.session.to_hex() + '"'));
 }
 
-TEST_CASE("the verdict becomes no data when the last sample is older than the limit",
-          "[daemon][page]") {
+TEST_CASE("the verdict becomes no data when the last sample is older than the limit") {
     Page page;
     page.status.last_sample = minute(1);
     page.status.verdict.state = verdict::State::stable;
@@ -166,8 +125,7 @@ TEST_CASE("the verdict becomes no data when the last sample is older than the li
     CHECK(is(verdict, "/reasons", R"(["last sample 3.0 s ago"])"));
 }
 
-TEST_CASE("texts that are not UTF-8 and numbers that are not finite do not break the status",
-          "[daemon][page]") {
+TEST_CASE("texts that are not UTF-8 and numbers that are not finite do not break the status") {
     Page page;
     page.status.last_sample = page.status.now = minute(1);
     page.status.temperature = DegC(std::numeric_limits<double>::quiet_NaN());

@@ -4,12 +4,11 @@
 #include <future>
 #include <memory>
 #include <thread>
-#include "tests/support/catch.hpp"
-
 #include "daemon/bundle/bundle.hpp"
 #include "daemon/bundle/bundle_check.hpp"
 #include "daemon/page/download_stream.hpp"
 #include "protocol/text/text_file.hpp"
+#include "tests/support/catch.hpp"
 #include "tests/support/temporary_directory.hpp"
 #include "tests/unit/daemon/served.hpp"
 #include "tests/unit/files/failing_files.hpp"
@@ -76,7 +75,7 @@ public:
 
 }  // namespace
 
-TEST_CASE("the day replaces an older copy, or gets its own name in a folder", "[daemon][ctl]") {
+TEST_CASE("the day replaces an older copy, or gets its own name in a folder") {
     Stick stick;
     const std::string line = stick.take(files::posix_files(), stick.out);
     CHECK(line.starts_with(stick.out.string() + ": 0.6 MB, 3 files, "));
@@ -87,8 +86,8 @@ TEST_CASE("the day replaces an older copy, or gets its own name in a folder", "[
                       "/dev/null is not a file; nothing was saved");
 }
 
-TEST_CASE("whichever operation of the disk fails, the older copy stays or the new one is complete",
-          "[daemon][ctl]") {
+TEST_CASE(
+    "whichever operation of the disk fails, the older copy stays or the new one is complete") {
     int saved = 0;
     for (int n = 1;; ++n) {
         Stick stick;
@@ -111,7 +110,7 @@ TEST_CASE("whichever operation of the disk fails, the older copy stays or the ne
     CHECK(saved == 1);  // The last sync of the folder.
 }
 
-TEST_CASE("a full disk is said with what the copy needs", "[daemon][ctl]") {
+TEST_CASE("a full disk is said with what the copy needs") {
     Stick stick;
     test::FailingFiles files;
     files.set({1, test::Fault::Kind::full_disk});
@@ -120,14 +119,14 @@ TEST_CASE("a full disk is said with what the copy needs", "[daemon][ctl]") {
     CHECK(stick.has_only_the_older_copy());
 }
 
-TEST_CASE("a disk that changes a byte is found by reading back", "[daemon][ctl]") {
+TEST_CASE("a disk that changes a byte is found by reading back") {
     Stick stick;
     ChangingFiles files;
     CHECK_THAT(stick.failure(files), EndsWith("; nothing was saved, try another disk"));
     CHECK(stick.has_only_the_older_copy());
 }
 
-TEST_CASE("a day that the daemon cannot read to its end is not saved", "[daemon][ctl]") {
+TEST_CASE("a day that the daemon cannot read to its end is not saved") {
     Stick stick;
     stick.served.bundle = [] {
         Download download = day();
@@ -150,8 +149,7 @@ TEST_CASE("a day that the daemon cannot read to its end is not saved", "[daemon]
     CHECK(stick.served.is_well());
 }
 
-TEST_CASE("two copies are made at a time, a third one is refused, and they end with the server",
-          "[daemon][server]") {
+TEST_CASE("two copies are made at a time, a third one is refused, and they end with the server") {
     std::promise<void> go;
     const std::shared_future<void> gone = go.get_future().share();
     std::atomic<int> begun = 0;
