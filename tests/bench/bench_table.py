@@ -37,7 +37,7 @@ COMMANDS = [
     [*PYTHON, HERE / "survey_accuracy.py", f"{FIRST_SEED}-{FIRST_SEED + options.days - 1}"],
     [*PYTHON, HERE / "system_bench.py"], [*PYTHON, HERE / "speed.py", *(["--beside", options.beside] if options.beside else [])],
     ["env", "A351_LONG=1", TOOLS / "timing_test", "times behind*"], [*PYTHON, TOP / "tests/system/kill_daemon.py"],
-    [TOOLS / "daemon_test", "[power_cut]"], [*PYTHON, TOP / "tests/system/same_bytes.py"],
+    [TOOLS / "daemon_test", "after a power cut*"], [*PYTHON, TOP / "tests/system/same_bytes.py"],
     *([*PYTHON, TOP / "tests/system" / f"{name}.py"]
       for name in ("obspy_reads", "ringserver", "gsadjust", "stranger_reads")),
 ]

@@ -96,8 +96,7 @@ const model::StationValue& station(const model::SurveyCorrection& result, const 
 
 }  // namespace
 
-TEST_CASE("a campaign of 112 stations agrees with the solution published with it",
-          "[golden][igp]") {
+TEST_CASE("a campaign of 112 stations agrees with the solution published with it") {
     const auto result = corrected({"11014121"});
     REQUIRE(result.rows.size() == 548);
     REQUIRE(result.stations.size() == 112);
@@ -130,8 +129,7 @@ TEST_CASE("a campaign of 112 stations agrees with the solution published with it
     }
 }
 
-TEST_CASE("the scales of the two meters come out as published, with the usual prior",
-          "[golden][igp]") {
+TEST_CASE("the scales of the two meters come out as published, with the usual prior") {
     model::SurveyOptions options;
     options.priors.reading_sd_mgal = kReadingSd_mgal;
     const auto result = judgement::correct_and_search(
@@ -151,14 +149,13 @@ TEST_CASE("the scales of the two meters come out as published, with the usual pr
     CHECK(result.score.loso_mgal.value() < 0.05);
 }
 
-TEST_CASE("none of the sites of a real campaign is doubtful", "[golden][igp]") {
+TEST_CASE("none of the sites of a real campaign is doubtful") {
     const auto list = sites();
     REQUIRE(list.size() == 418);
     CHECK(text::doubtful_site(list).empty());
 }
 
-TEST_CASE("mistakes of a real campaign are few, large enough to be read, and each named once",
-          "[golden][igp]") {
+TEST_CASE("mistakes of a real campaign are few, large enough to be read, and each named once") {
     const auto result = corrected({"11014121"});
     std::vector<std::string> texts;
     for (const reading::Finding& finding : result.findings) {
@@ -172,7 +169,7 @@ TEST_CASE("mistakes of a real campaign are few, large enough to be read, and eac
     CHECK(texts.size() <= 4);  // of 548 readings
 }
 
-TEST_CASE("a reading of a real campaign that is made wrong by 0.3 mGal is named", "[golden][igp]") {
+TEST_CASE("a reading of a real campaign that is made wrong by 0.3 mGal is named") {
     auto list = rows({"11014121"});
     reading::SurveyRow& wrong = list[100];
     wrong.acceleration = wrong.acceleration + MilliGal(0.3);

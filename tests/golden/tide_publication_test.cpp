@@ -48,13 +48,11 @@ double publication_tide(UtcTime time, const tide::Station& station) {
 
 }  // namespace
 
-TEST_CASE("the direct tide times 1.20 is within 0.0007 mGal of the publication's column",
-          "[golden][tide]") {
+TEST_CASE("the direct tide times 1.20 is within 0.0007 mGal of the publication's column") {
     CHECK(greatest(deviations(publication_tide, "table_mgal")) <= 0.0007);
 }
 
-TEST_CASE("the direct tide times 1.20 rounds to the publication's value in 18 of 19 rows",
-          "[golden][tide]") {
+TEST_CASE("the direct tide times 1.20 rounds to the publication's value in 18 of 19 rows") {
     // Half a unit of the printed digit plus 0.0001 mGal, the accuracy of the method: No.2 (1) is
     // 0.001506 here and 0.00149 in the harmonic catalogue, on either side of the rounding.
     const auto difference = deviations(publication_tide, "table_mgal");
@@ -64,7 +62,7 @@ TEST_CASE("the direct tide times 1.20 rounds to the publication's value in 18 of
                         [](double d) { return std::abs(d) < 0.0005; }) == 17);
 }
 
-TEST_CASE("the column of observations.csv is the one of tide_check.csv", "[golden][tide]") {
+TEST_CASE("the column of observations.csv is the one of tide_check.csv") {
     const auto check = text::read_csv(A351_GOLDEN "/tsukuba/tide_check.csv");
     const auto observations = text::read_csv(A351_GOLDEN "/tsukuba/observations.csv");
     REQUIRE(check.row_count() == observations.row_count());
@@ -76,14 +74,14 @@ TEST_CASE("the column of observations.csv is the one of tide_check.csv", "[golde
     }
 }
 
-TEST_CASE("the direct rigid tide repeats the check column to 0.0001 mGal", "[golden][tide]") {
+TEST_CASE("the direct rigid tide repeats the check column to 0.0001 mGal") {
     const auto rigid = [](UtcTime time, const tide::Station& station) {
         return direct_tide(time, station, kRigidEarth).value();
     };
     CHECK(greatest(deviations(rigid, "rigid_mgal")) <= 0.0001);
 }
 
-TEST_CASE("Longman's tide repeats its two check columns to their rounding", "[golden][tide]") {
+TEST_CASE("Longman's tide repeats its two check columns to their rounding") {
     const auto rigid = [](UtcTime time, const tide::Station& station) {
         return longman_tide(time, station, kRigidEarth).value();
     };
@@ -94,23 +92,21 @@ TEST_CASE("Longman's tide repeats its two check columns to their rounding", "[go
     CHECK(greatest(deviations(usual, "longman_x1.1575_mgal")) <= 0.00001);
 }
 
-TEST_CASE("a tide of the wrong sign misses the publication's column by 0.08 mGal",
-          "[golden][tide]") {
+TEST_CASE("a tide of the wrong sign misses the publication's column by 0.08 mGal") {
     const auto wrong = [](UtcTime time, const tide::Station& station) {
         return -publication_tide(time, station);
     };
     CHECK(greatest(deviations(wrong, "table_mgal")) == Approx(0.082).margin(0.001));
 }
 
-TEST_CASE("local time taken for UTC misses the publication's column by 0.10 mGal",
-          "[golden][tide]") {
+TEST_CASE("local time taken for UTC misses the publication's column by 0.10 mGal") {
     const auto wrong = [](UtcTime time, const tide::Station& station) {
         return publication_tide(time + std::chrono::hours(9), station);
     };
     CHECK(greatest(deviations(wrong, "table_mgal")) == Approx(0.104).margin(0.001));
 }
 
-TEST_CASE("longitude counted west misses the publication's column by 0.11 mGal", "[golden][tide]") {
+TEST_CASE("longitude counted west misses the publication's column by 0.11 mGal") {
     const auto wrong = [](UtcTime time, const tide::Station& station) {
         return publication_tide(time, {station.latitude, -station.longitude, station.height});
     };

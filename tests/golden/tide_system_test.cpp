@@ -38,7 +38,7 @@ std::vector<Place> places() {
 
 }  // namespace
 
-TEST_CASE("each tide system agrees with ETERNA's catalogue at 20 places", "[golden][tide]") {
+TEST_CASE("each tide system agrees with ETERNA's catalogue at 20 places") {
     for (const Place& one : places()) {
         CAPTURE(one.station.latitude.value());
         const auto rigid = [&](System system) {
@@ -52,7 +52,7 @@ TEST_CASE("each tide system agrees with ETERNA's catalogue at 20 places", "[gold
     }
 }
 
-TEST_CASE("the permanent tide is that of Ekman's formula at 20 places", "[golden][tide]") {
+TEST_CASE("the permanent tide is that of Ekman's formula at 20 places") {
     // M. Ekman, Bull. Geod. 63, 281-296, 1989: mean minus zero gravity, -30.4 + 91.2 sin^2(lat) uGal.
     for (const auto& [time, station, rigid, rest] : places()) {
         const double sine = std::sin(station.latitude.value() * kRadPerDeg);
@@ -62,8 +62,7 @@ TEST_CASE("the permanent tide is that of Ekman's formula at 20 places", "[golden
     }
 }
 
-TEST_CASE("the permanent tide is the mean of the tide over 18.6 years at 20 places",
-          "[golden][tide]") {
+TEST_CASE("the permanent tide is the mean of the tide over 18.6 years at 20 places") {
     // Two revolutions of the Moon's node from 1998 on.  The step is no part of a day, a month or a
     // year, so that each angle is sampled evenly.
     constexpr double kNode_s = 2 * 6798.38 * 86400.0;
@@ -81,8 +80,7 @@ TEST_CASE("the permanent tide is the mean of the tide over 18.6 years at 20 plac
     }
 }
 
-TEST_CASE("systems of gravity differ by constants that depend on the latitude alone",
-          "[golden][tide]") {
+TEST_CASE("systems of gravity differ by constants that depend on the latitude alone") {
     const UtcTime time = *parse_rfc3339("2017-07-16T03:00:00Z");
     const Factors factors;
     const auto remaining = [&](System system, double latitude_deg, tide::Model model) {

@@ -72,65 +72,64 @@ Approx within(double value, double margin) { return Approx(value).margin(margin)
 
 }  // namespace
 
-TEST_CASE("Difference of every row is the printed one", "[golden][tsukuba]") {
+TEST_CASE("Difference of every row is the printed one") {
     const double deviation = max_deviation(differences_mgal(tsukuba::observations()),
                                            tsukuba::printed("difference_mgal"));
     CHECK(deviation == within(0.001, 1e-9));
     CHECK(deviation <= 0.002);
 }
 
-TEST_CASE("figure 12: slope of acceleration over reference, tide not removed",
-          "[golden][tsukuba]") {
+TEST_CASE("figure 12: slope of acceleration over reference, tide not removed") {
     CHECK(figure12(0.0).slope == within(0.9734770, 1e-6));
     CHECK(figure12(0.0).slope == within(0.97348, 1e-5));
 }
 
-TEST_CASE("figure 12: intercept", "[golden][tsukuba]") {
+TEST_CASE("figure 12: intercept") {
     CHECK(figure12(0.0).intercept == within(27825.72, 0.05));
     CHECK(figure12(0.0).intercept == within(27825.0, 9.0));
 }
 
-TEST_CASE("figure 12: R2", "[golden][tsukuba]") {
+TEST_CASE("figure 12: R2") {
     CHECK(figure12(0.0).r_squared == within(0.974822, 1e-6));
     CHECK(figure12(0.0).r_squared == within(0.9748, 5e-5));
 }
 
-TEST_CASE("figure 12 with the tide removed is another line", "[golden][tsukuba]") {
+TEST_CASE("figure 12 with the tide removed is another line") {
     CHECK(figure12(1.0).slope == within(0.9735209, 1e-6));
     CHECK(figure12(1.0).intercept == within(27782.66, 0.05));
 }
 
-TEST_CASE("temperature slope from the printed temperatures", "[golden][tsukuba]") {
+TEST_CASE("temperature slope from the printed temperatures") {
     const double slope = own_line(tsukuba::observations()).slope;
     CHECK(slope == within(-29.2309, 0.0005));
     CHECK(slope == within(-29.274, 0.35));
 }
 
-TEST_CASE("temperature slope from the recovered temperatures", "[golden][tsukuba]") {
+TEST_CASE("temperature slope from the recovered temperatures") {
     const double slope = own_line(tsukuba::with_recovered_temperature()).slope;
     CHECK(slope == within(-29.2746, 0.0005));
     CHECK(slope == within(-29.274, 0.001));
 }
 
-TEST_CASE("temperature intercept from the printed temperatures", "[golden][tsukuba]") {
+TEST_CASE("temperature intercept from the printed temperatures") {
     const double intercept = own_line(tsukuba::observations()).intercept;
     CHECK(intercept == within(3083.322, 0.02));
     CHECK(intercept == within(3085.2, 16.0));
 }
 
-TEST_CASE("temperature intercept from the recovered temperatures", "[golden][tsukuba]") {
+TEST_CASE("temperature intercept from the recovered temperatures") {
     const double intercept = own_line(tsukuba::with_recovered_temperature()).intercept;
     CHECK(intercept == within(3085.186, 0.02));
     CHECK(intercept == within(3085.2, 0.05));
 }
 
-TEST_CASE("R2 of the temperature line from the printed temperatures", "[golden][tsukuba]") {
+TEST_CASE("R2 of the temperature line from the printed temperatures") {
     const double r_squared = own_line(tsukuba::observations()).r_squared;
     CHECK(r_squared == within(0.925739, 1e-6));
     CHECK(r_squared == within(0.9264, 0.006));
 }
 
-TEST_CASE("R2 of the temperature line from the recovered temperatures", "[golden][tsukuba]") {
+TEST_CASE("R2 of the temperature line from the recovered temperatures") {
     // temperature_recovered.csv is rounded to 0.00001 degC, which moves R2 by 7e-7; without the
     // rounding: the printed Corrected (1) solved for T with the printed coefficients.
     auto rows = tsukuba::with_recovered_temperature();
@@ -147,7 +146,7 @@ TEST_CASE("R2 of the temperature line from the recovered temperatures", "[golden
     CHECK(own_line(rows).r_squared == within(0.9264, 5e-5));
 }
 
-TEST_CASE("Corrected (1) with the printed coefficients", "[golden][tsukuba]") {
+TEST_CASE("Corrected (1) with the printed coefficients") {
     const double deviation =
         max_deviation(temperature_corrected_mgal(tsukuba::observations(), kPrintedLine),
                       tsukuba::printed("corrected1_mgal"));
@@ -155,15 +154,14 @@ TEST_CASE("Corrected (1) with the printed coefficients", "[golden][tsukuba]") {
     CHECK(deviation <= 0.147);
 }
 
-TEST_CASE("Corrected (1) with the program's own fit", "[golden][tsukuba]") {
+TEST_CASE("Corrected (1) with the program's own fit") {
     const double deviation =
         max_deviation(own_corrected1(tsukuba::observations()), tsukuba::printed("corrected1_mgal"));
     CHECK(deviation == within(0.174747, 1e-6));
     CHECK(deviation <= 0.25);
 }
 
-TEST_CASE("Corrected (1) from the recovered temperatures differs by one constant",
-          "[golden][tsukuba]") {
+TEST_CASE("Corrected (1) from the recovered temperatures differs by one constant") {
     const auto corrected = own_corrected1(tsukuba::with_recovered_temperature());
     const auto expected = tsukuba::printed("corrected1_mgal");
     for (std::size_t i = 0; i < corrected.size(); ++i) {
@@ -174,7 +172,7 @@ TEST_CASE("Corrected (1) from the recovered temperatures differs by one constant
     }
 }
 
-TEST_CASE("Corrected (2) from the printed Corrected (1)", "[golden][tsukuba]") {
+TEST_CASE("Corrected (2) from the printed Corrected (1)") {
     const auto corrected2 =
         corrected2_from(tsukuba::observations(), tsukuba::printed("corrected1_mgal"));
     const double deviation = max_deviation(corrected2, tsukuba::printed("corrected2_mgal"));
@@ -182,7 +180,7 @@ TEST_CASE("Corrected (2) from the printed Corrected (1)", "[golden][tsukuba]") {
     CHECK(deviation <= 0.0015);
 }
 
-TEST_CASE("Corrected (2), full chain with the printed coefficients", "[golden][tsukuba]") {
+TEST_CASE("Corrected (2), full chain with the printed coefficients") {
     const auto rows = tsukuba::observations();
     const auto corrected2 = corrected2_from(rows, temperature_corrected_mgal(rows, kPrintedLine));
     const double deviation = max_deviation(corrected2, tsukuba::printed("corrected2_mgal"));
@@ -190,7 +188,7 @@ TEST_CASE("Corrected (2), full chain with the printed coefficients", "[golden][t
     CHECK(deviation <= 0.30);
 }
 
-TEST_CASE("Corrected (2), full chain from the recovered temperatures", "[golden][tsukuba]") {
+TEST_CASE("Corrected (2), full chain from the recovered temperatures") {
     const auto rows = tsukuba::with_recovered_temperature();
     const double deviation = max_deviation(corrected2_from(rows, own_corrected1(rows)),
                                            tsukuba::printed("corrected2_mgal"));
@@ -198,33 +196,33 @@ TEST_CASE("Corrected (2), full chain from the recovered temperatures", "[golden]
     CHECK(deviation <= 0.0015);
 }
 
-TEST_CASE("RMS of Error (1) recomputed from the printed Corrected (1)", "[golden][tsukuba]") {
+TEST_CASE("RMS of Error (1) recomputed from the printed Corrected (1)") {
     const auto errors = errors_mgal(tsukuba::observations(), tsukuba::printed("corrected1_mgal"));
     CHECK(rms(errors, tsukuba::unflagged()).value() == within(2.0004, 0.0001));
     CHECK(rms(errors, tsukuba::unflagged()).value() == within(2.000, 0.0005));
 }
 
-TEST_CASE("RMS of Error (1) from the recovered temperatures", "[golden][tsukuba]") {
+TEST_CASE("RMS of Error (1) from the recovered temperatures") {
     const auto rows = tsukuba::with_recovered_temperature();
     const double value = rms(errors_mgal(rows, own_corrected1(rows)), tsukuba::unflagged()).value();
     CHECK(value == within(2.0000, 0.0001));
     CHECK(value == within(2.000, 0.0005));
 }
 
-TEST_CASE("RMS of Error (1) from the printed temperatures", "[golden][tsukuba]") {
+TEST_CASE("RMS of Error (1) from the printed temperatures") {
     const auto rows = tsukuba::observations();
     const double value = rms(errors_mgal(rows, own_corrected1(rows)), tsukuba::unflagged()).value();
     CHECK(value == within(2.0084, 0.0001));
     CHECK(value == within(2.000, 0.08));
 }
 
-TEST_CASE("RMS of the printed Error (2)", "[golden][tsukuba]") {
+TEST_CASE("RMS of the printed Error (2)") {
     const double value = rms(tsukuba::printed("error2_mgal"), tsukuba::unflagged()).value();
     CHECK(value == within(2.5926, 0.0001));
     CHECK(value == within(2.593, 0.0005));
 }
 
-TEST_CASE("RMS of Error (2) from the recovered temperatures", "[golden][tsukuba]") {
+TEST_CASE("RMS of Error (2) from the recovered temperatures") {
     const auto rows = tsukuba::with_recovered_temperature();
     const auto corrected2 = corrected2_from(rows, own_corrected1(rows));
     const double value = rms(errors_mgal(rows, corrected2), tsukuba::unflagged()).value();
@@ -232,7 +230,7 @@ TEST_CASE("RMS of Error (2) from the recovered temperatures", "[golden][tsukuba]
     CHECK(value == within(2.593, 0.0005));
 }
 
-TEST_CASE("RMS of Error (2) from the printed temperatures", "[golden][tsukuba]") {
+TEST_CASE("RMS of Error (2) from the printed temperatures") {
     const auto rows = tsukuba::observations();
     const auto corrected2 = corrected2_from(rows, own_corrected1(rows));
     const double value = rms(errors_mgal(rows, corrected2), tsukuba::unflagged()).value();
@@ -240,21 +238,21 @@ TEST_CASE("RMS of Error (2) from the printed temperatures", "[golden][tsukuba]")
     CHECK(value == within(2.593, 0.17));
 }
 
-TEST_CASE("drift from the first to the last occupation of the base", "[golden][tsukuba]") {
+TEST_CASE("drift from the first to the last occupation of the base") {
     const auto step = find_end_point_drift(tsukuba::observations(), tsukuba::unflagged(),
                                            tsukuba::printed("corrected1_mgal"), "No.0");
     CHECK(step.drift.value().total().value() == within(-4.035, 0.0005));
     CHECK(step.drift.value().rate_mgal_per_h() == within(-0.41249, 0.0005));
 }
 
-TEST_CASE("figure 14: R2 of Corrected (2) over reference", "[golden][tsukuba]") {
+TEST_CASE("figure 14: R2 of Corrected (2) over reference") {
     const auto fit = line_of(references(tsukuba::observations()),
                              tsukuba::printed("corrected2_mgal"), tsukuba::unflagged());
     CHECK(fit.r_squared == within(0.997988, 1e-6));
     CHECK(fit.r_squared == within(0.9980, 5e-5));
 }
 
-TEST_CASE("RMS over all 19 rows, which the publication does not print", "[golden][tsukuba]") {
+TEST_CASE("RMS over all 19 rows, which the publication does not print") {
     const auto rows = tsukuba::observations();
     const auto errors1 = errors_mgal(rows, tsukuba::printed("corrected1_mgal"));
     const auto errors2 =
@@ -263,7 +261,7 @@ TEST_CASE("RMS over all 19 rows, which the publication does not print", "[golden
     CHECK(rms(errors2, kAllRows).value() == within(4.8355, 0.0001));
 }
 
-TEST_CASE("the printed Error (1) of No.0 (2) is a slip of 0.020", "[golden][tsukuba]") {
+TEST_CASE("the printed Error (1) of No.0 (2) is a slip of 0.020") {
     const auto errors = errors_mgal(tsukuba::observations(), tsukuba::printed("corrected1_mgal"));
     const auto printed = tsukuba::printed("error1_mgal");
     for (std::size_t i = 0; i < errors.size(); ++i) {

@@ -21,13 +21,12 @@ std::vector<Finding> findings_of(const std::string& model, bool use_flags) {
 
 }  // namespace
 
-TEST_CASE("the published survey has no mistakes without the rows that it left out", "[tsukuba]") {
+TEST_CASE("the published survey has no mistakes without the rows that it left out") {
     for (const std::string model : {"auto", "t", "t-rate-drift", "network", "paper"})
         CHECK(findings_of(model, true).empty());
 }
 
-TEST_CASE("with all published rows a model without the rate names the worst of those left out",
-          "[tsukuba]") {
+TEST_CASE("with all published rows a model without the rate names the worst of those left out") {
     for (const std::string model : {"t", "t-drift", "network"}) {
         const auto findings = findings_of(model, false);
         REQUIRE(findings.size() == 1);

@@ -56,7 +56,7 @@ void check_coefficient(const text::CsvTable& table, std::size_t row, const std::
 
 }  // namespace
 
-TEST_CASE("every number of the eight reference regressions", "[golden][tsukuba]") {
+TEST_CASE("every number of the eight reference regressions") {
     const auto table = text::read_csv(A351_GOLDEN "/tsukuba/models_expected.csv");
     REQUIRE(table.row_count() == 8);
     const std::size_t row = GENERATE(range(std::size_t(0), std::size_t(8)));
@@ -87,15 +87,14 @@ TEST_CASE("every number of the eight reference regressions", "[golden][tsukuba]"
     }
 }
 
-TEST_CASE("all 19 rows with rate and drift come out at 2.03 mGal in sample", "[golden][tsukuba]") {
+TEST_CASE("all 19 rows with rate and drift come out at 2.03 mGal in sample") {
     const SurveyCorrection result = correct("t-rate-drift", false);
     CHECK(result.score.row_count == 19);
     CHECK(result.score.rms_mgal.value() <= 2.03);
     CHECK(result.score.loso_mgal.value() == near_printed(3.1292));
 }
 
-TEST_CASE("the program's paper model has the RMS before and after the drift step",
-          "[golden][tsukuba]") {
+TEST_CASE("the program's paper model has the RMS before and after the drift step") {
     const SurveyCorrection result = correct("paper", true);
     CHECK(result.score.rms_before_drift_mgal.value() == near_printed(2.0084, 0.0001));
     CHECK(result.score.rms_mgal.value() == near_printed(2.6249, 0.0001));
@@ -110,7 +109,7 @@ TEST_CASE("the program's paper model has the RMS before and after the drift step
     }
 }
 
-TEST_CASE("drift alone explains no more of the 16 rows than their scatter", "[golden][tsukuba]") {
+TEST_CASE("drift alone explains no more of the 16 rows than their scatter") {
     const SurveyCorrection result = correct("drift", true);
     REQUIRE(result.coefficients.size() == 2);
     CHECK(result.coefficients[1].name == "time_mgal_per_h");
@@ -119,21 +118,18 @@ TEST_CASE("drift alone explains no more of the 16 rows than their scatter", "[go
     CHECK(correct("auto", true).row_sets[0].scores.size() == 5);  // paper and the four
 }
 
-TEST_CASE("auto takes the temperature line on 16 rows and adds the rate on 19",
-          "[golden][tsukuba]") {
+TEST_CASE("auto takes the temperature line on 16 rows and adds the rate on 19") {
     CHECK(correct("auto", true).model == "t");
     CHECK(correct("auto", false).model == "t-rate");
 }
 
-TEST_CASE("choosing a model on the 16 rows costs: its own error is 2.3 to 2.7 mGal",
-          "[golden][tsukuba]") {
+TEST_CASE("choosing a model on the 16 rows costs: its own error is 2.3 to 2.7 mGal") {
     const double loso = correct("auto", true).choice_loso_mgal.value();
     CHECK(loso >= 2.2);
     CHECK(loso <= 2.75);
 }
 
-TEST_CASE("the rate coefficient of an indoor record, held, lowers the leave-one-out error",
-          "[golden][tsukuba]") {
+TEST_CASE("the rate coefficient of an indoor record, held, lowers the leave-one-out error") {
     // 11.2 mGal/(degC/h) is not from these rows: 2.27 becomes 1.93, and 4.48 becomes 3.16.
     adjustment::Priors held;
     set_prior(held, "test", "rate_mgal_per_degc_per_h", {11.2, 1e-4});
@@ -148,8 +144,7 @@ TEST_CASE("the rate coefficient of an indoor record, held, lowers the leave-one-
     CHECK(correct("t-rate-drift", true, wide).score.loo_mgal.value() == near_printed(2.0817));
 }
 
-TEST_CASE("a network held at one or two benchmarks finds the others to 2.0-2.6 mGal",
-          "[golden][tsukuba]") {
+TEST_CASE("a network held at one or two benchmarks finds the others to 2.0-2.6 mGal") {
     // The publication's slope held; without and with a drift.  "2.5-2.6" with No.0 alone, "2.2"
     // with No.0 and No.12.
     const auto off_by = [](const std::vector<std::string>& datum, int drift_degree) {
@@ -176,7 +171,7 @@ TEST_CASE("a network held at one or two benchmarks finds the others to 2.0-2.6 m
     CHECK(off_by({"No.0", "No.12"}, 1) == near_printed(2.20, 0.005));
 }
 
-TEST_CASE("the reading that methods.md computes by hand", "[golden][tsukuba]") {
+TEST_CASE("the reading that methods.md computes by hand") {
     SurveyOptions options;
     options.model = "network";
     options.datum = {"No.0"};
@@ -191,8 +186,7 @@ TEST_CASE("the reading that methods.md computes by hand", "[golden][tsukuba]") {
     CHECK(station.u_gravity.value().value() == near_printed(2.48, 0.005));
 }
 
-TEST_CASE("No.2 (1) alone is significant on 19 rows with the temperature line",
-          "[golden][tsukuba]") {
+TEST_CASE("No.2 (1) alone is significant on 19 rows with the temperature line") {
     // Student's t with n - p - 1 degrees of freedom at 0.05 / (2n): 3.56 for 19 rows, 3.57 for 18.
     constexpr double kLimit = 3.56, kLimitWithoutIt = 3.57;
     const auto is_it = [](const reading::SurveyRow& row) {
@@ -214,8 +208,7 @@ TEST_CASE("No.2 (1) alone is significant on 19 rows with the temperature line",
         CHECK(std::abs(row.studentised_residual.value()) < kLimitWithoutIt);
 }
 
-TEST_CASE("the physical criterion finds the publication's three and No.1 (2)",
-          "[golden][tsukuba]") {
+TEST_CASE("the physical criterion finds the publication's three and No.1 (2)") {
     for (const std::string model : {"t", "paper"}) {
         for (const CorrectedRow& row : correct(model, true).rows) {
             CAPTURE(row.row.site, row.row.occupation);
@@ -225,8 +218,7 @@ TEST_CASE("the physical criterion finds the publication's three and No.1 (2)",
     }
 }
 
-TEST_CASE("the leave-one-out error of the published rows has an interval around it",
-          "[golden][tsukuba]") {
+TEST_CASE("the leave-one-out error of the published rows has an interval around it") {
     // n = 16: a scatter of 2 mGal has itself a standard error of about 0.4.
     const SurveyCorrection result = correct("t", true);
     const Interval interval = result.loo_interval_mgal.value();
@@ -236,8 +228,7 @@ TEST_CASE("the leave-one-out error of the published rows has an interval around 
     CHECK(interval.high < result.score.loo_mgal.value() + 1.2);
 }
 
-TEST_CASE("with one known station auto takes the network with weak priors, and is honest",
-          "[golden][models]") {
+TEST_CASE("with one known station auto takes the network with weak priors, and is honest") {
     SurveyOptions options;
     options.base = "No.0";
     options.datum = {"No.0"};

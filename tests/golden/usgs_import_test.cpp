@@ -61,7 +61,7 @@ double tide_difference_mgal(const GravimeterFile& file, const Expected& expected
 
 }  // namespace
 
-TEST_CASE("the files of real instruments contradict themselves nowhere", "[golden][usgs]") {
+TEST_CASE("the files of real instruments contradict themselves nowhere") {
     const auto tide_of = [](UtcTime time, const Position& at) {
         return tide::direct_tide(time, {at.latitude, at.longitude, at.altitude});
     };
@@ -72,8 +72,7 @@ TEST_CASE("the files of real instruments contradict themselves nowhere", "[golde
     }
 }
 
-TEST_CASE("every line of the files is a reading or a comment, and none is refused",
-          "[golden][usgs]") {
+TEST_CASE("every line of the files is a reading or a comment, and none is refused") {
     for (const Expected& expected : kFiles) {
         INFO(expected.file);
         std::vector<GravimeterFile> files{read_gravimeter_file(golden(expected.file))};
@@ -90,8 +89,7 @@ TEST_CASE("every line of the files is a reading or a comment, and none is refuse
     }
 }
 
-TEST_CASE("the tide of each instrument is the computed one, with the sign of a correction",
-          "[golden][usgs]") {
+TEST_CASE("the tide of each instrument is the computed one, with the sign of a correction") {
     for (const Expected& expected : kFiles) {
         const GravimeterFile file = read_gravimeter_file(golden(expected.file));
         const double right = tide_difference_mgal(file, expected, -1.0),
@@ -106,8 +104,7 @@ TEST_CASE("the tide of each instrument is the computed one, with the sign of a c
 
 TEST_CASE(
     "a file cut at any byte gives the readings before the cut and names the damaged line, or is "
-    "refused",
-    "[golden][usgs]") {
+    "refused") {
     const test::TemporaryDirectory folder;
     for (const std::string name : {"cg5_excerpt.txt", "CG-6_TestData.dat", "B44_2017-12-05.txt"}) {
         const std::string whole = text::read_text_file(golden(name));

@@ -130,7 +130,7 @@ double rms(const std::map<std::string, HoldOut>& errors) {
 
 }  // namespace
 
-TEST_CASE("absolute stations that are held out agree within their uncertainty", "[golden][usgs]") {
+TEST_CASE("absolute stations that are held out agree within their uncertainty") {
     std::vector<double> ratios;
     for (const bool is_mean : {false, true}) {
         for (const int degree : {1, 2}) {
@@ -162,8 +162,7 @@ TEST_CASE("absolute stations that are held out agree within their uncertainty", 
 }
 
 TEST_CASE(
-    "two gravimeters together predict no worse than the worse of them, and more surely than each",
-    "[golden][usgs]") {
+    "two gravimeters together predict no worse than the worse of them, and more surely than each") {
     for (const bool is_mean : {false, true}) {
         for (const int degree : {1, 2, 3}) {
             const auto first = hold_out_all(kMeters[0], is_mean, degree);
@@ -182,8 +181,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("the far end of a line of 198 mGal is off by the meter's scale, and u says so",
-          "[golden][usgs]") {
+TEST_CASE("the far end of a line of 198 mGal is off by the meter's scale, and u says so") {
     // The real readings of a meter, with a made-up part: one real station, rg57, is moved 198 mGal away.
     // The made-up error of the meter's scale is 0.036 mGal in 198 mGal.
     constexpr double kRange_mgal = 198.0, kScale = 1.0 + 0.036 / kRange_mgal;
@@ -213,7 +211,7 @@ TEST_CASE("the far end of a line of 198 mGal is off by the meter's scale, and u 
     CHECK(free.error_mgal == Approx(held.error_mgal).epsilon(0.01));
 }
 
-TEST_CASE("a finding about a gravimeter has a size that can be read", "[golden][usgs]") {
+TEST_CASE("a finding about a gravimeter has a size that can be read") {
     auto rows = rows_of(kMeters[2], false);
     constexpr double kStep_mgal = 0.0623;
     for (reading::SurveyRow& row : rows)
@@ -228,8 +226,7 @@ TEST_CASE("a finding about a gravimeter has a size that can be read", "[golden][
                ContainsSubstring("the readings are 0.06") && !ContainsSubstring("0.0 +- 0.0"));
 }
 
-TEST_CASE("the table of absolute values comes from the files of the absolute gravimeter",
-          "[golden][usgs]") {
+TEST_CASE("the table of absolute values comes from the files of the absolute gravimeter") {
     // The value at the mark: that at the transfer height of 100 cm plus 3 uGal/cm.
     const std::map<std::string, std::string> suffixes{{"2017-12", "_2017-12-01.project.txt"},
                                                       {"2018-02", "_2018-02-2"}};

@@ -56,13 +56,13 @@ void check_end(const ChildEnd& end, Outcome outcome, int status, const std::stri
 
 }  // namespace
 
-TEST_CASE("the output of a child is returned whole, and its talk is no message", "[child]") {
+TEST_CASE("the output of a child is returned whole, and its talk is no message") {
     const ChildEnd end = run_shell("echo one; echo two; echo talk >&2");
     check_end(end, Outcome::good, 0, "");
     CHECK(end.output == "one\ntwo\n");
 }
 
-TEST_CASE("words, directory and variables reach the program without a shell", "[child]") {
+TEST_CASE("words, directory and variables reach the program without a shell") {
     const test::TemporaryDirectory folder;
     ::setenv("A351_TEST", "inherited", 1);
     ::setenv("A351_TEST_OTHER", "kept", 1);
@@ -73,7 +73,7 @@ TEST_CASE("words, directory and variables reach the program without a shell", "[
     CHECK(end.output == folder.path().string() + "\na`b` $c given kept\n");
 }
 
-TEST_CASE("each failure of a child has its outcome and cause", "[child]") {
+TEST_CASE("each failure of a child has its outcome and cause") {
     check_end(run_shell("echo first >&2; echo 'sites.csv: no such file' >&2; exit 2"),
               Outcome::failed, 2, "sites.csv: no such file");
     check_end(run_shell("exit 3"), Outcome::failed, 3, "it ended with status 3");
@@ -86,7 +86,7 @@ TEST_CASE("each failure of a child has its outcome and cause", "[child]") {
               "it printed too much");
 }
 
-TEST_CASE("a program is looked up in PATH, and only an executable file counts", "[child]") {
+TEST_CASE("a program is looked up in PATH, and only an executable file counts") {
     const test::TemporaryDirectory folder;
     const PathVariable path(folder.write("no-folder", "").string() + "::" + folder.path().string());
     const auto outcome = [&](const std::string& name) {
@@ -108,13 +108,12 @@ TEST_CASE("a program is looked up in PATH, and only an executable file counts", 
               "the host refuses to start it");
 }
 
-TEST_CASE("a working directory that is missing is an exception, and nothing is started",
-          "[child]") {
+TEST_CASE("a working directory that is missing is an exception, and nothing is started") {
     CHECK_THROWS_AS(run_child({.words = {"/bin/true"}, .directory = "/nowhere"}),
                     std::system_error);
 }
 
-TEST_CASE("a child that hangs is killed, also if it closes its output", "[child]") {
+TEST_CASE("a child that hangs is killed, also if it closes its output") {
     for (const char* const script : {"sleep 100", "exec >&- 2>&-; sleep 100"}) {
         const auto begin = std::chrono::steady_clock::now();
         check_end(run_shell(script, {.time = 300ms}), Outcome::too_slow, 0,
@@ -123,7 +122,7 @@ TEST_CASE("a child that hangs is killed, also if it closes its output", "[child]
     }
 }
 
-TEST_CASE("a child is stopped on request, with what it has started", "[child]") {
+TEST_CASE("a child is stopped on request, with what it has started") {
     const test::TemporaryDirectory folder;
     const auto file = folder.path() / "pid";
     std::atomic<bool> stop{false};
@@ -141,7 +140,7 @@ TEST_CASE("a child is stopped on request, with what it has started", "[child]") 
     CHECK(comes_true([&] { return is_gone(number); }));
 }
 
-TEST_CASE("a process that a child left behind is not waited for", "[child]") {
+TEST_CASE("a process that a child left behind is not waited for") {
     const auto begin = std::chrono::steady_clock::now();
     const ChildEnd end = run_shell("sleep 20 & echo $!");
     CHECK(end.outcome == Outcome::good);
@@ -149,7 +148,7 @@ TEST_CASE("a process that a child left behind is not waited for", "[child]") {
     ::kill(std::stoi(end.output), SIGKILL);
 }
 
-TEST_CASE("a child that uses too much processor time or memory is refused more", "[child]") {
+TEST_CASE("a child that uses too much processor time or memory is refused more") {
     check_end(run_shell("while :; do :; done", {.time = 300s, .cpu_s = 1}), Outcome::too_slow, 0,
               "it reached its limit of processor time");
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
@@ -162,7 +161,7 @@ TEST_CASE("a child that uses too much processor time or memory is refused more",
 #endif
 }
 
-TEST_CASE("a child inherits no descriptor, no blocked and no ignored signal", "[child]") {
+TEST_CASE("a child inherits no descriptor, no blocked and no ignored signal") {
     const int leaked = open("/dev/null", O_RDONLY);  // without O_CLOEXEC
     REQUIRE(leaked > 2);
     sigset_t term, before;
@@ -182,7 +181,7 @@ TEST_CASE("a child inherits no descriptor, no blocked and no ignored signal", "[
     CHECK(sigismember(&after, SIGINT) == 0);
 }
 
-TEST_CASE("a child in the background is the least of processes, another is not", "[child]") {
+TEST_CASE("a child in the background is the least of processes, another is not") {
     // The 41st word of stat is the scheduling policy: 5 is SCHED_IDLE.
     const std::string script =
         "cat /proc/$$/oom_score_adj; cut -d' ' -f41 /proc/$$/stat; ulimit -t; ulimit -v; ulimit "
@@ -193,7 +192,7 @@ TEST_CASE("a child in the background is the least of processes, another is not",
     CHECK(run_shell("cut -d' ' -f41 /proc/$$/stat").output == "0\n");
 }
 
-TEST_CASE("a child has its streams, also if the caller has closed its own", "[child]") {
+TEST_CASE("a child has its streams, also if the caller has closed its own") {
     const test::TemporaryDirectory folder;
     const auto file = folder.path() / "output";
     const pid_t caller = fork();
@@ -208,7 +207,7 @@ TEST_CASE("a child has its streams, also if the caller has closed its own", "[ch
     CHECK(content_of(file) == "1\nerror4");
 }
 
-TEST_CASE("no run leaves a zombie", "[child]") {
+TEST_CASE("no run leaves a zombie") {
     std::ignore = run_shell("exit 0");
     std::ignore = run_shell("exit 1");
     std::ignore = run_shell("sleep 100", {.time = 1ms});
@@ -216,13 +215,13 @@ TEST_CASE("no run leaves a zombie", "[child]") {
     CHECK(errno == ECHILD);
 }
 
-TEST_CASE("a status that nobody can read is an exception, not a success", "[child]") {
+TEST_CASE("a status that nobody can read is an exception, not a success") {
     const auto before = ::signal(SIGCHLD, SIG_IGN);
     CHECK_THROWS_AS(run_shell("exit 3"), std::system_error);
     ::signal(SIGCHLD, before);
 }
 
-TEST_CASE("a child is gone after its caller was killed", "[child]") {
+TEST_CASE("a child is gone after its caller was killed") {
     const test::TemporaryDirectory folder;
     const auto file = folder.path() / "pid";
     const pid_t caller = fork();

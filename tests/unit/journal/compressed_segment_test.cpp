@@ -217,8 +217,7 @@ TEST_CASE_METHOD(Fixture, "whichever file operation fails, compressing leaves a 
     }
 }
 
-TEST_CASE_METHOD(Fixture, "a power cut at any moment of compressing leaves a readable segment",
-                 "[record][journal][power_cut]") {
+TEST_CASE_METHOD(Fixture, "a power cut at any moment of compressing leaves a readable segment") {
     constexpr int kCuts = 20;  // at each operation; a cut loses half of what was not synced
     const auto root = directory_.path() / "root", found = directory_.path() / "found";
     std::mt19937_64 random(7);

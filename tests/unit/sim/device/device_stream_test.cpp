@@ -41,8 +41,7 @@ std::vector<wire::BurstValues> decode(const std::vector<std::byte>& bytes) {
 
 }  // namespace
 
-TEST_CASE("frames are sent when they are due, decode to the truth, and COUNT advances evenly",
-          "[sim][device_stream]") {
+TEST_CASE("frames are sent when they are due, decode to the truth, and COUNT advances evenly") {
     Rig rig;
     rig.bench.start_logging();
     const UtcTime start = rig.scenario.start();
@@ -65,8 +64,7 @@ TEST_CASE("frames are sent when they are due, decode to the truth, and COUNT adv
     }
 }
 
-TEST_CASE("a device far behind catches up in pieces and answers commands between them",
-          "[sim][device_stream]") {
+TEST_CASE("a device far behind catches up in pieces and answers commands between them") {
     Rig rig;
     rig.bench.start_logging();
     const UtcTime end = rig.scenario.start() + 1h;
@@ -82,7 +80,7 @@ TEST_CASE("a device far behind catches up in pieces and answers commands between
     CHECK(*rig.stream.next_due() == end + 20ms);
 }
 
-TEST_CASE("the sample grid continues while sampling is stopped", "[sim][device_stream]") {
+TEST_CASE("the sample grid continues while sampling is stopped") {
     Rig rig, undisturbed;
     undisturbed.bench.start_logging();
     rig.bench.start_logging();
@@ -107,7 +105,7 @@ TEST_CASE("the sample grid continues while sampling is stopped", "[sim][device_s
     CHECK(restarted.values.axes == undisturbed.line.truth[1008 - 7].values.axes);
 }
 
-TEST_CASE("an output rate above the grid's repeats each sample", "[sim][device_stream]") {
+TEST_CASE("an output rate above the grid's repeats each sample") {
     Rig rig;
     rig.bench.send({"FE 01", "85 04", "86 08", "88 01", "8C 03", "8D C7", "FE 00", "83 01"});
     rig.advance_to(rig.scenario.start() + 2s);
@@ -120,8 +118,7 @@ TEST_CASE("an output rate above the grid's repeats each sample", "[sim][device_s
     }
 }
 
-TEST_CASE("after a stop between repeats of a sample a lower rate is on time from its first frame",
-          "[sim][device_stream]") {
+TEST_CASE("after a stop between repeats of a sample a lower rate is on time from its first frame") {
     // Stopped at 1000/s with 15 of 20 repeats sent, started again at 50/s before the next sample.
     GridSource source(50, [](std::int64_t) { return kSample; });
     Bench bench;

@@ -8,8 +8,7 @@ using namespace a351::sim::device;
 using namespace std::chrono_literals;
 using Kind = LongTermFilter::Kind;
 
-TEST_CASE("the low-pass settles on a constant after twice its taps, the high-pass after its taps",
-          "[sim][long_term_filter]") {
+TEST_CASE("the low-pass settles on a constant after twice its taps, the high-pass after its taps") {
     // Data sheet table 5.5.
     for (int log2_taps = 1; log2_taps <= 12; ++log2_taps) {
         const int taps = 1 << log2_taps;
@@ -28,8 +27,7 @@ TEST_CASE("the low-pass settles on a constant after twice its taps, the high-pas
     }
 }
 
-TEST_CASE("a pulse comes out of the low-pass as a triangle, and is forgotten at a restart",
-          "[sim][long_term_filter]") {
+TEST_CASE("a pulse comes out of the low-pass as a triangle, and is forgotten at a restart") {
     LongTermFilter filter;
     filter.start(Kind::low_pass, 2);
     std::int32_t input = 1600;
@@ -44,8 +42,7 @@ TEST_CASE("a pulse comes out of the low-pass as a triangle, and is forgotten at 
     CHECK(filter.next({5, 6, 7}) == std::array<std::int32_t, 3>{5, 6, 7});
 }
 
-TEST_CASE("LONGFILT_CTRL and LONGFILT_TAP act on the samples of the device",
-          "[sim][long_term_filter]") {
+TEST_CASE("LONGFILT_CTRL and LONGFILT_TAP act on the samples of the device") {
     Bench bench;
     bench.send(
         {"FE 01", "9C 03", "9E 02", "85 06", "86 06", "88 01", "8C 00", "8D 01", "FE 00", "83 01"});
@@ -56,8 +53,7 @@ TEST_CASE("LONGFILT_CTRL and LONGFILT_TAP act on the samples of the device",
           "80 00 00 00 00 0D");
 }
 
-TEST_CASE("FIR_UCMD is busy for 7 ms per byte written and 0.5 ms per byte read",
-          "[sim][user_filter]") {
+TEST_CASE("FIR_UCMD is busy for 7 ms per byte written and 0.5 ms per byte read") {
     Bench bench;
     bench.send({"FE 01", "98 5A"});
     const auto written = bench.now;
@@ -74,8 +70,7 @@ TEST_CASE("FIR_UCMD is busy for 7 ms per byte written and 0.5 ms per byte read",
     CHECK(filter.command() == 0);
 }
 
-TEST_CASE("while a byte is being written, new data, addresses and commands are ignored",
-          "[sim][user_filter]") {
+TEST_CASE("while a byte is being written, new data, addresses and commands are ignored") {
     Bench bench;
     bench.send({"FE 01", "98 11", "96 02", "98 22", "9A 40", "96 01"});
     CHECK(bench.read("W1:16") == "0002");
@@ -89,8 +84,7 @@ TEST_CASE("while a byte is being written, new data, addresses and commands are i
     CHECK(bench.read("W1:18") == "8000");  // DATA_ERR: the byte cannot be read.
 }
 
-TEST_CASE("a selected user filter multiplies a constant by the sum of its coefficients",
-          "[sim][user_filter]") {
+TEST_CASE("a selected user filter multiplies a constant by the sum of its coefficients") {
     // The maker's example of four taps: 0x20000000, a quarter each, is an average of four.  With
     // -0.75 as the last coefficient the sum is zero.
     for (const auto& [last, expected] :

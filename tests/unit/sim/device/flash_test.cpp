@@ -30,8 +30,7 @@ std::string first_coefficient(Bench& bench) {
 
 }  // namespace
 
-TEST_CASE("FLASH_BACKUP reads 1 for 310 ms, and then the settings survive power cycle and reset",
-          "[sim][flash]") {
+TEST_CASE("FLASH_BACKUP reads 1 for 310 ms, and then the settings survive power cycle and reset") {
     Bench bench;
     bench.send({"FE 01", "85 06", "86 06", "89 03", "8D C7", "C7 05", "9E 03", "83 40", "8A 08"});
     CHECK(bench.read("W1:0A") == "0008");
@@ -57,7 +56,7 @@ TEST_CASE("FLASH_BACKUP reads 1 for 310 ms, and then the settings survive power 
     CHECK(bench.read("W0:06") == "0000");
 }
 
-TEST_CASE("a power failure during a backup leaves the flash as it was", "[sim][flash]") {
+TEST_CASE("a power failure during a backup leaves the flash as it was") {
     Bench bench;
     bench.send({"FE 01", "85 06", "8A 08"});
     bench.wait(RegisterMachine::kFlashBackupTime - 2ms);
@@ -66,7 +65,7 @@ TEST_CASE("a power failure during a backup leaves the flash as it was", "[sim][f
     CHECK(bench.machine.flash() == FlashMemory{});
 }
 
-TEST_CASE("FLASH_RST takes 1.9 s and has its effect only after the next reset", "[sim][flash]") {
+TEST_CASE("FLASH_RST takes 1.9 s and has its effect only after the next reset") {
     Bench bench;
     bench.write("W1:85 06");
     back_up(bench);
@@ -80,7 +79,7 @@ TEST_CASE("FLASH_RST takes 1.9 s and has its effect only after the next reset", 
     CHECK(bench.read("W1:04") == "0400");
 }
 
-TEST_CASE("a failed backup is reported in FLASH_BU_ERR", "[sim][flash]") {
+TEST_CASE("a failed backup is reported in FLASH_BU_ERR") {
     Bench bench;
     bench.machine.fail_tests(0x0001);
     bench.write("W1:85 06");
@@ -92,8 +91,7 @@ TEST_CASE("a failed backup is reported in FLASH_BU_ERR", "[sim][flash]") {
     CHECK(full.read("W0:04") == "0001");
 }
 
-TEST_CASE("coefficients are lost at a power cycle unless their filter was selected",
-          "[sim][flash]") {
+TEST_CASE("coefficients are lost at a power cycle unless their filter was selected") {
     for (const bool is_selected : {false, true}) {
         CAPTURE(is_selected);
         std::optional<FlashMemory> kept;
@@ -117,8 +115,7 @@ TEST_CASE("coefficients are lost at a power cycle unless their filter was select
     }
 }
 
-TEST_CASE("a power cycle writes nothing to the flash, and the user filter in it is active",
-          "[sim][flash]") {
+TEST_CASE("a power cycle writes nothing to the flash, and the user filter in it is active") {
     FlashMemory flash;
     flash.coefficients.fill(0);
     flash.coefficients[3] = 0x40;  // One coefficient of 0.5.
@@ -139,7 +136,7 @@ TEST_CASE("a power cycle writes nothing to the flash, and the user filter in it 
     }
 }
 
-TEST_CASE("any content of the flash can be written to a file and read back", "[sim][flash]") {
+TEST_CASE("any content of the flash can be written to a file and read back") {
     const test::TemporaryDirectory directory;
     const auto file = directory.path() / "any";
     FlashMemory memory;
@@ -153,8 +150,7 @@ TEST_CASE("any content of the flash can be written to a file and read back", "[s
     }
 }
 
-TEST_CASE("a damaged flash file is refused in one line that names the file and the key",
-          "[sim][flash]") {
+TEST_CASE("a damaged flash file is refused in one line that names the file and the key") {
     const test::TemporaryDirectory directory;
     const auto file = directory.path() / "damaged";
     write_flash_file(file, FlashMemory{});

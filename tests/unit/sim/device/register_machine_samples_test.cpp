@@ -24,8 +24,7 @@ unsigned word_sum(std::span<const std::byte> payload) {
 
 }  // namespace
 
-TEST_CASE("each of the 112 layouts streams its fields at their offsets",
-          "[sim][register_machine]") {
+TEST_CASE("each of the 112 layouts streams its fields at their offsets") {
     const auto table = text::read_csv(A351_GOLDEN "/wire/burst_layouts.csv");
     REQUIRE(table.row_count() == 112);
     // Values of kSample, flags of a healthy device with the factory's ND enables, COUNT after three
@@ -67,8 +66,7 @@ TEST_CASE("each of the 112 layouts streams its fields at their offsets",
     CHECK(bench.sample(10).empty());
 }
 
-TEST_CASE("the first frame comes after the transient, with one step in COUNT",
-          "[sim][register_machine]") {
+TEST_CASE("the first frame comes after the transient, with one step in COUNT") {
     // Suppressed samples of data sheet table 5.3.
     struct Case {
         std::string_view rate, filter;
@@ -94,8 +92,7 @@ TEST_CASE("the first frame comes after the transient, with one step in COUNT",
     }
 }
 
-TEST_CASE("COUNT can jump, counts samples that are not sent, and keeps its value after a stop",
-          "[sim][register_machine]") {
+TEST_CASE("COUNT can jump, counts samples that are not sent, and keeps its value after a stop") {
     // A real A352 at 200/s showed 07D0 after 100 samples (dump in the README of py_esensorlib).
     Bench bench;
     bench.send({"FE 01", "88 01", "FE 00", "83 01"});
@@ -108,8 +105,7 @@ TEST_CASE("COUNT can jump, counts samples that are not sent, and keeps its value
     CHECK(bench.read("W0:0A") == "07D0");
 }
 
-TEST_CASE("in manual mode each burst command sends one frame with the newest sample",
-          "[sim][register_machine]") {
+TEST_CASE("in manual mode each burst command sends one frame with the newest sample") {
     Bench bench;
     bench.send({"FE 01", "85 06", "86 06", "8C 03", "8D C7", "FE 00", "83 01"});
     CHECK(bench.sample(8).empty());
@@ -122,7 +118,7 @@ TEST_CASE("in manual mode each burst command sends one frame with the newest sam
     CHECK(bench.send({"83 02", "80 00"}).empty());  // No burst outside sampling.
 }
 
-TEST_CASE("reading a value clears its new-data flag and no other", "[sim][register_machine]") {
+TEST_CASE("reading a value clears its new-data flag and no other") {
     Bench bench;
     bench.send({"FE 01", "85 06", "86 06", "FE 00", "83 01"});
     bench.sample(Bench::kTransient);
@@ -155,8 +151,7 @@ TEST_CASE("reading a value clears its new-data flag and no other", "[sim][regist
     CHECK(bench.read("W0:06") == "0800");
 }
 
-TEST_CASE("frames come as fast as the baud rate allows, and UART_OVF reports dropped ones",
-          "[sim][register_machine]") {
+TEST_CASE("frames come as fast as the baud rate allows, and UART_OVF reports dropped ones") {
     struct Case {
         std::string_view baud, rate, filter;
         int transient, frames_a_second;
@@ -187,8 +182,7 @@ TEST_CASE("frames come as fast as the baud rate allows, and UART_OVF reports dro
     }
 }
 
-TEST_CASE("a frame is late by group delay, internal delay, wire time and at most one earlier frame",
-          "[sim][register_machine]") {
+TEST_CASE("a frame is late by group delay, internal delay, wire time and at most one earlier frame") {
     Bench bench;
     bench.send({"FE 01", "89 03", "85 02", "86 08", "88 01", "8C 03", "8D C7", "FE 00", "83 01"});
     bench.sample(127);
@@ -207,8 +201,7 @@ TEST_CASE("a frame is late by group delay, internal delay, wire time and at most
     }
 }
 
-TEST_CASE("with EXT_SEL only an external edge makes a sample, and COUNT follows their spacing",
-          "[sim][register_machine]") {
+TEST_CASE("with EXT_SEL only an external edge makes a sample, and COUNT follows their spacing") {
     Bench bench;
     bench.send({"FE 01", "82 46", "85 06", "86 08", "88 01", "8C 03", "8D C7", "FE 00", "83 01"});
     bench.machine.external_edge(bench.now);
@@ -223,8 +216,7 @@ TEST_CASE("with EXT_SEL only an external edge makes a sample, and COUNT follows 
     CHECK(bench.sample().empty());
 }
 
-TEST_CASE("frames carry acceleration with offset and alarm limits, or tilt within 60 degrees",
-          "[sim][register_machine]") {
+TEST_CASE("frames carry acceleration with offset and alarm limits, or tilt within 60 degrees") {
     struct Row {
         std::vector<std::string_view> settings;
         std::array<std::int32_t, 3> axes;
@@ -263,8 +255,7 @@ TEST_CASE("frames carry acceleration with offset and alarm limits, or tilt withi
     }
 }
 
-TEST_CASE("an alarm stays until FLAG is read, by command or by a frame that carries it",
-          "[sim][register_machine]") {
+TEST_CASE("an alarm stays until FLAG is read, by command or by a frame that carries it") {
     const SensorSample shaken{{0, 0, 20 * kOneG}, 0};
     const SensorSample calm{{0, 0, kOneG}, 0};
     Bench bench;
@@ -283,8 +274,7 @@ TEST_CASE("an alarm stays until FLAG is read, by command or by a frame that carr
     CHECK(bench.sample(1, calm).substr(0, 8) == "80 8E 00");
 }
 
-TEST_CASE("tilt is the arc sine of the acceleration, in radians times 2^29",
-          "[sim][register_machine]") {
+TEST_CASE("tilt is the arc sine of the acceleration, in radians times 2^29") {
     const auto& profile = *wire::find_profile("A352AD10");
     for (int i = -86; i <= 86; ++i) {  // sin 60 degrees is 0.866.
         const auto counts = static_cast<std::int32_t>(i * (kOneG / 100));
@@ -295,8 +285,7 @@ TEST_CASE("tilt is the arc sine of the acceleration, in radians times 2^29",
     CHECK(tilt_counts(kOneG / 2, profile) == 281104952);  // pi / 6.
 }
 
-TEST_CASE("with tilt selected on one axis, acceleration and tilt can be read side by side",
-          "[sim][register_machine]") {
+TEST_CASE("with tilt selected on one axis, acceleration and tilt can be read side by side") {
     // Data sheet 5.13: frames carry what OUTPUT_SEL selects; the ACCL registers stay acceleration.
     Bench bench;
     bench.send({"FE 01", "80 84"});

@@ -8,8 +8,7 @@ using namespace a351;
 using namespace a351::sim::device;
 using namespace std::chrono_literals;
 
-TEST_CASE("commands in configuration mode are answered as the data sheet says",
-          "[sim][register_machine]") {
+TEST_CASE("commands in configuration mode are answered as the data sheet says") {
     struct Row {
         std::vector<std::string_view> commands;
         std::string_view answers;
@@ -56,8 +55,7 @@ TEST_CASE("commands in configuration mode are answered as the data sheet says",
     }
 }
 
-TEST_CASE("commands are understood however the host splits their bytes",
-          "[sim][register_machine]") {
+TEST_CASE("commands are understood however the host splits their bytes") {
     const auto commands = bytes_of("FE 01 0D 85 06 0D 04 00 0D FE 00 0D 02 00 0D");
     for (std::size_t cut = 0; cut <= commands.size(); ++cut) {
         Bench bench;
@@ -68,8 +66,7 @@ TEST_CASE("commands are understood however the host splits their bytes",
     }
 }
 
-TEST_CASE("damaged commands are skipped and the next one is understood",
-          "[sim][register_machine]") {
+TEST_CASE("damaged commands are skipped and the next one is understood") {
     const std::string mode = "02 04 00 0D";
     for (const std::string damage :
          {"0D", "0D 0D 0D 0D", "FE", "FE 00", "12 34 56 78", "02 00 55"}) {
@@ -93,7 +90,7 @@ TEST_CASE("damaged commands are skipped and the next one is understood",
     }
 }
 
-TEST_CASE("a partial command is forgotten after 100 ms", "[sim][register_machine]") {
+TEST_CASE("a partial command is forgotten after 100 ms") {
     Bench bench;
     std::vector<std::byte> answers;
     bench.machine.receive(bytes_of("02 00"), bench.now, answers);
@@ -105,16 +102,14 @@ TEST_CASE("a partial command is forgotten after 100 ms", "[sim][register_machine
     CHECK(answers.empty());
 }
 
-TEST_CASE("a renamed unit has the first character of its identity in the low byte",
-          "[sim][register_machine]") {
+TEST_CASE("a renamed unit has the first character of its identity in the low byte") {
     Bench bench;
     bench.machine.rename({"A351AU10", "W0000501", 2});
     CHECK(bench.send({"FE 01", "6A 00", "6C 00", "72 00", "74 00", "7A 00"}) ==
           "6A 33 41 0D 6C 31 35 0D 72 00 02 0D 74 30 57 0D 7A 31 30 0D");
 }
 
-TEST_CASE("during start-up NOT_READY is answered and nothing else, and a reset also ends sampling",
-          "[sim][register_machine]") {
+TEST_CASE("during start-up NOT_READY is answered and nothing else, and a reset also ends sampling") {
     Bench bench;
     bench.machine.power_cycle(bench.now);
     CHECK(bench.send({"FE 00", "02 00", "FE 01", "0A 00", "85 06"}) == "0A 04 00 0D");
@@ -129,8 +124,7 @@ TEST_CASE("during start-up NOT_READY is answered and nothing else, and a reset a
           "0A 00 00 0D 04 04 00 0D 02 04 00 0D");
 }
 
-TEST_CASE("during sampling all writes except mode, reset and window are ignored",
-          "[sim][register_machine]") {
+TEST_CASE("during sampling all writes except mode, reset and window are ignored") {
     Bench bench;
     // Rate, signal, self test, flash backup, user filter; sleep only from configuration.
     CHECK(bench.send({"83 01", "83 03", "FE 01", "85 06", "80 00", "83 01", "8A 08", "96 02",
@@ -139,8 +133,7 @@ TEST_CASE("during sampling all writes except mode, reset and window are ignored"
     CHECK(bench.machine.is_sampling());
 }
 
-TEST_CASE("an edge at EXT or a power cycle wakes a sleeping device into configuration mode",
-          "[sim][register_machine]") {
+TEST_CASE("an edge at EXT or a power cycle wakes a sleeping device into configuration mode") {
     const bool by_edge = GENERATE(true, false);
     Bench bench;
     CHECK(bench.send({"FE 01", "85 06", "FE 00", "83 03"}).empty());
@@ -159,7 +152,7 @@ TEST_CASE("an edge at EXT or a power cycle wakes a sleeping device into configur
     CHECK(bench.read("W1:04") == (by_edge ? "0600" : "0400"));  // An edge keeps the settings.
 }
 
-TEST_CASE("FILTER_STAT reads busy while a filter is being set", "[sim][register_machine]") {
+TEST_CASE("FILTER_STAT reads busy while a filter is being set") {
     Bench bench;
     CHECK(bench.send({"FE 01", "86 06", "06 00"}) == "06 00 26 0D");
     bench.wait(RegisterMachine::kFilterTime);
@@ -171,8 +164,7 @@ TEST_CASE("FILTER_STAT reads busy while a filter is being set", "[sim][register_
 }
 
 TEST_CASE(
-    "settings changed from outside keep the host's window, half-sent command and command count",
-    "[sim][register_machine]") {
+    "settings changed from outside keep the host's window, half-sent command and command count") {
     const std::array changes{RegisterChange{wire::kSmplCtrl, 0x0600, wire::kHighByte},
                              RegisterChange{wire::kFilterCtrl, 0x0006, wire::kFilterSelect},
                              RegisterChange{wire::kUartCtrl, 0x0300, wire::kHighByte},
@@ -204,8 +196,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("settings cannot be changed from outside while the device starts up or sleeps",
-          "[sim][register_machine]") {
+TEST_CASE("settings cannot be changed from outside while the device starts up or sleeps") {
     const std::array changes{RegisterChange{wire::kSmplCtrl, 0x0600, wire::kHighByte}};
     Bench bench;
     bench.send({"83 03"});
@@ -219,8 +210,7 @@ TEST_CASE("settings cannot be changed from outside while the device starts up or
     CHECK(bench.read("W1:04") == "0400");
 }
 
-TEST_CASE("a faulty device shows HARD_ERR and EA after every start-up until it is repaired",
-          "[sim][register_machine]") {
+TEST_CASE("a faulty device shows HARD_ERR and EA after every start-up until it is repaired") {
     Bench bench;
     bench.machine.fail_tests(0x0060);
     for (int start = 0; start < 2; ++start) {
@@ -235,7 +225,7 @@ TEST_CASE("a faulty device shows HARD_ERR and EA after every start-up until it i
     CHECK(bench.read("W0:04") == "0000");
 }
 
-TEST_CASE("each self test reads 1 while it runs and 0 afterwards", "[sim][self_test]") {
+TEST_CASE("each self test reads 1 while it runs and 0 afterwards") {
     struct Case {
         std::string_view command;
         std::string_view running;
@@ -258,8 +248,7 @@ TEST_CASE("each self test reads 1 while it runs and 0 afterwards", "[sim][self_t
     }
 }
 
-TEST_CASE("a failure shows in DIAG_STAT only after the self test that finds it",
-          "[sim][self_test]") {
+TEST_CASE("a failure shows in DIAG_STAT only after the self test that finds it") {
     struct Case {
         std::string_view command, shown;
     };
@@ -282,8 +271,7 @@ TEST_CASE("a failure shows in DIAG_STAT only after the self test that finds it",
     CHECK(bench.read("W0:04") == "0000");
 }
 
-TEST_CASE("the self test of the acceleration fails if its magnitude is outside 0.8 to 1.2 g",
-          "[sim][self_test]") {
+TEST_CASE("the self test of the acceleration fails if its magnitude is outside 0.8 to 1.2 g") {
     struct Case {
         std::int32_t z;
         std::string_view shown;

@@ -155,8 +155,7 @@ private:
 
 }  // namespace
 
-TEST_CASE("the emulator answers as in the transcripts from the data sheet and the maker's software",
-          "[sim][transcripts]") {
+TEST_CASE("the emulator answers as in the transcripts from the data sheet and the maker's software") {
     int played = 0;
     for (const auto& entry : std::filesystem::directory_iterator(kFolder)) {
         if (entry.path().extension() != ".txt") continue;

@@ -71,7 +71,7 @@ private:
 
 }  // namespace
 
-TEST_CASE("each line is answered with ok or error, however it is split", "[sim][control]") {
+TEST_CASE("each line is answered with ok or error, however it is split") {
     const auto path = socket_path("lines");
     ControlSocket socket(path, echo);
     Client client(path);
@@ -94,7 +94,7 @@ TEST_CASE("each line is answered with ok or error, however it is split", "[sim][
     CHECK(heard.size() == 3 * 100'004);
 }
 
-TEST_CASE("a bad client is dropped and the others are served", "[sim][control]") {
+TEST_CASE("a bad client is dropped and the others are served") {
     const auto path = socket_path("bad");
     ControlSocket socket(path, echo);
     Client good(path);
@@ -114,7 +114,7 @@ TEST_CASE("a bad client is dropped and the others are served", "[sim][control]")
     CHECK(good.hear() == "ok still there\n");
 }
 
-TEST_CASE("a client that does not read is dropped before it costs much memory", "[sim][control]") {
+TEST_CASE("a client that does not read is dropped before it costs much memory") {
     const auto path = socket_path("deaf");
     ControlSocket socket(path, echo);
     Client deaf(path);
@@ -129,7 +129,7 @@ TEST_CASE("a client that does not read is dropped before it costs much memory", 
     CHECK(was_dropped);
 }
 
-TEST_CASE("clients beyond the largest number are turned away", "[sim][control]") {
+TEST_CASE("clients beyond the largest number are turned away") {
     const auto path = socket_path("many");
     ControlSocket socket(path, echo);
     std::vector<std::unique_ptr<Client>> clients;
@@ -145,7 +145,7 @@ TEST_CASE("clients beyond the largest number are turned away", "[sim][control]")
     CHECK(clients.front()->hear() == "ok one\n");
 }
 
-TEST_CASE("the socket's path is removed at the end, and only if it is ours", "[sim][control]") {
+TEST_CASE("the socket's path is removed at the end, and only if it is ours") {
     const auto path = socket_path("path");
     { const ControlSocket socket(path, echo); }
     CHECK_FALSE(fs::exists(path));
@@ -160,7 +160,7 @@ TEST_CASE("the socket's path is removed at the end, and only if it is ours", "[s
     fs::remove(path);
 }
 
-TEST_CASE("a stale socket is replaced, but one with a listener is not", "[sim][control]") {
+TEST_CASE("a stale socket is replaced, but one with a listener is not") {
     const auto path = socket_path("stale");
     const int stale = ::socket(AF_UNIX, SOCK_STREAM, 0);
     REQUIRE(at_path(::bind, stale, path) == 0);

@@ -9,8 +9,7 @@ using namespace a351::sim::device;
 using namespace a351::sim::line;
 using namespace a351::sim::truth;
 
-TEST_CASE("each fault of the stream leaves its marks at the host and in the report",
-          "[sim][fault]") {
+TEST_CASE("each fault of the stream leaves its marks at the host and in the report") {
     struct Row {
         std::string kind, keys;
         std::int64_t missing;        ///< Samples that the host misses.
@@ -82,7 +81,7 @@ TEST_CASE("each fault of the stream leaves its marks at the host and in the repo
     if (row.kind == "counter_reset") CHECK(count_of(101) == 80);
 }
 
-TEST_CASE("dropped, inserted and missing bytes cost only the frame they are in", "[sim][fault]") {
+TEST_CASE("dropped, inserted and missing bytes cost only the frame they are in") {
     const std::string kind = GENERATE("drop_bytes", "insert_bytes", "truncate_frame");
     const int bytes = GENERATE(1, 2, 7, 100);
     CAPTURE(kind, bytes);
@@ -99,7 +98,7 @@ TEST_CASE("dropped, inserted and missing bytes cost only the frame they are in",
     if (kind == "insert_bytes") CHECK(report.bytes_inserted == 300 * bytes);
 }
 
-TEST_CASE("a reset, a power cut and a stop end the stream in configuration mode", "[sim][fault]") {
+TEST_CASE("a reset, a power cut and a stop end the stream in configuration mode") {
     const std::string kind = GENERATE("reset", "power_cycle", "stop");
     CAPTURE(kind);
     Rig rig(fault(kind, "at_frame = 100"));
@@ -113,7 +112,7 @@ TEST_CASE("a reset, a power cut and a stop end the stream in configuration mode"
     CHECK(rig.bench.send({"FE 01", "0C 00"}) == (kind == "stop" ? "0C C7 03 0D" : "0C 47 02 0D"));
 }
 
-TEST_CASE("unplugging a port loses the frames until it is back", "[sim][fault]") {
+TEST_CASE("unplugging a port loses the frames until it is back") {
     Rig rig(fault("hang_up", "at_frame = 100\nseconds = 4"));
     rig.run_to(UtcTime(10s));
     const auto hang_up = rig.faults.take_hang_up();
@@ -127,8 +126,7 @@ TEST_CASE("unplugging a port loses the frames until it is back", "[sim][fault]")
     CHECK(decoded.missing > 300);
 }
 
-TEST_CASE("a device that is unplugged from its power comes back in configuration mode",
-          "[sim][fault]") {
+TEST_CASE("a device that is unplugged from its power comes back in configuration mode") {
     Rig rig(fault("hang_up", "at_frame = 100\nloses_power = true"));
     rig.run_to(UtcTime(10s));
     CHECK_FALSE(rig.bench.machine.is_sampling());
@@ -138,8 +136,7 @@ TEST_CASE("a device that is unplugged from its power comes back in configuration
     CHECK(rig.bench.send({"FE 01", "0A 00"}) == "0A 04 00 0D");
 }
 
-TEST_CASE("another unit answers with its own serial number, at once or after the next hang-up",
-          "[sim][fault]") {
+TEST_CASE("another unit answers with its own serial number, at once or after the next hang-up") {
     const bool waits = GENERATE(false, true);
     Rig rig(fault("other_unit", "at_frame = 100\nserial_number = \"87654321\"\nwhen_unplugged = " +
                                     std::string(waits ? "true" : "false")) +
@@ -156,7 +153,7 @@ TEST_CASE("another unit answers with its own serial number, at once or after the
     CHECK(serial() == "74 37 38 0D");
 }
 
-TEST_CASE("changed settings take effect, and the frames follow them", "[sim][fault]") {
+TEST_CASE("changed settings take effect, and the frames follow them") {
     Rig rig(fault("change_settings",
                   "at_frame = 100\noutput_rate_hz = 100\nfilter = \"k512_fc16\"\n"
                   "burst_ctrl = 0x0702"));
@@ -170,7 +167,7 @@ TEST_CASE("changed settings take effect, and the frames follow them", "[sim][fau
     CHECK(rig.bytes.size() == 101 * 24 + (rig.truth.size() - 101) * 16);
 }
 
-TEST_CASE("a changed baud rate of the device garbles what it sends", "[sim][fault]") {
+TEST_CASE("a changed baud rate of the device garbles what it sends") {
     Rig rig(fault("change_baud", "at_frame = 100\nbaud = 115200"));
     rig.run_to(UtcTime(2s));
     const std::size_t before = rig.arrived().size();
@@ -189,7 +186,7 @@ TEST_CASE("a changed baud rate of the device garbles what it sends", "[sim][faul
     CHECK(rig.count(Fate::damaged) == static_cast<std::int64_t>(rig.truth.size()) - 101);
 }
 
-TEST_CASE("an answer cuts a frame only if the script allows it", "[sim][fault]") {
+TEST_CASE("an answer cuts a frame only if the script allows it") {
     for (const bool cuts : {false, true}) {
         Rig rig(cuts ? "answers_cut_frames = true\n" : "");
         rig.run_to(UtcTime(5s));
@@ -201,7 +198,7 @@ TEST_CASE("an answer cuts a frame only if the script allows it", "[sim][fault]")
     }
 }
 
-TEST_CASE("without automatic frames an answer does not wait for a frame", "[sim][fault]") {
+TEST_CASE("without automatic frames an answer does not wait for a frame") {
     Rig rig("answers_cut_frames = true\n");
     rig.bench.send({"FE 00", "83 02", "FE 01", "88 00", "FE 00", "83 01"});  // UART_AUTO = 0.
     rig.run_to(UtcTime(5s));
@@ -211,8 +208,7 @@ TEST_CASE("without automatic frames an answer does not wait for a frame", "[sim]
     CHECK(hex_of(rig.bytes) == "02 00 00 0D");
 }
 
-TEST_CASE("an answer that waits for a frame is sent without one when sampling ends",
-          "[sim][fault]") {
+TEST_CASE("an answer that waits for a frame is sent without one when sampling ends") {
     Rig rig("answers_cut_frames = true\n");
     rig.run_to(UtcTime(5s));
     const std::size_t before = rig.bytes.size();
@@ -230,7 +226,7 @@ TEST_CASE("an answer that waits for a frame is sent without one when sampling en
     CHECK(rig.count(Fate::damaged) == 0);
 }
 
-TEST_CASE("if two faults of the line overlap, the line recovers at the later end", "[sim][fault]") {
+TEST_CASE("if two faults of the line overlap, the line recovers at the later end") {
     const auto kind = GENERATE("silence", "stall", "overrun", "hang_up");
     CAPTURE(kind);
     Rig rig(fault(kind, "at_s = 2\nseconds = 6") + fault(kind, "at_s = 3\nseconds = 1"));
@@ -251,7 +247,7 @@ TEST_CASE("if two faults of the line overlap, the line recovers at the later end
     if (kind == std::string("silence")) CHECK(heard_by(UtcTime(9s)) > after);
 }
 
-TEST_CASE("a frame gets one fault, and the next frame the next fault", "[sim][fault]") {
+TEST_CASE("a frame gets one fault, and the next frame the next fault") {
     Rig rig(fault("flip_bit", "at_frame = 100") + fault("lose_frames", "at_frame = 100") +
             fault("duplicate_frame", "at_frame = 100"));
     check_report(rig);
@@ -261,7 +257,7 @@ TEST_CASE("a frame gets one fault, and the next frame the next fault", "[sim][fa
     CHECK(rig.truth[103].fate == Fate::repeated);
 }
 
-TEST_CASE("random faults follow their rates and depend only on the seed", "[sim][fault]") {
+TEST_CASE("random faults follow their rates and depend only on the seed") {
     const std::string toml =
         "[random]\nseed = 3\nflip_bit_per_h = 3600\ndrop_bytes_per_h = 1800\n"
         "duplicate_frame_per_h = 900\ngarbage_per_h = 900\n";
@@ -277,7 +273,7 @@ TEST_CASE("random faults follow their rates and depend only on the seed", "[sim]
     check_report(rig);
 }
 
-TEST_CASE("random faults that find no frame in time are refused and counted", "[sim][fault]") {
+TEST_CASE("random faults that find no frame in time are refused and counted") {
     Rig rig("[random]\nflip_bit_per_h = 1e6\ndrop_bytes_per_h = 1e6\ncounter_jump_per_h = 1e6\n");
     check_report(rig);
     rig.run_to(UtcTime(60s));
@@ -301,8 +297,7 @@ TEST_CASE("random faults that find no frame in time are refused and counted", "[
     CHECK(waiting <= static_cast<std::int64_t>(FaultInjector::kMostWaiting));
 }
 
-TEST_CASE("faults with extremely low rates do not happen, and times do not overflow",
-          "[sim][fault]") {
+TEST_CASE("faults with extremely low rates do not happen, and times do not overflow") {
     const std::string rate = GENERATE("none", "1e-9", "1e-300", "5e-324");
     CAPTURE(rate);
     Rig rig(rate == "none" ? "" : "[random]\nflip_bit_per_h = " + rate + "\n");
@@ -314,8 +309,7 @@ TEST_CASE("faults with extremely low rates do not happen, and times do not overf
     CHECK(later_by(1.0, UtcTime(1s)) == UtcTime(2s));
 }
 
-TEST_CASE("faults of the oven are passed on to it, and reported if they cannot be applied",
-          "[sim][fault]") {
+TEST_CASE("faults of the oven are passed on to it, and reported if they cannot be applied") {
     Rig rig(fault("oven_silence", "at_s = 1\ncount = -1") + fault("oven_silence", "at_s = 4"));
     rig.run_to(UtcTime(3s));
     CHECK(rig.oven == "oven_silence -1");

@@ -22,7 +22,7 @@ FaultScript parse(const std::string& toml) {
 
 }  // namespace
 
-TEST_CASE("every kind of fault can be given in a script and in words", "[sim][fault_script]") {
+TEST_CASE("every kind of fault can be given in a script and in words") {
     for (const std::string_view kind : fault_kinds()) {
         CAPTURE(kind);
         if (kind == "overrun") continue;
@@ -42,8 +42,7 @@ TEST_CASE("every kind of fault can be given in a script and in words", "[sim][fa
     }
 }
 
-TEST_CASE("times in seconds, UTC or frames, and rates and seed of random faults are read",
-          "[sim][fault_script]") {
+TEST_CASE("times in seconds, UTC or frames, and rates and seed of random faults are read") {
     const FaultScript script = parse(
         "answers_cut_frames = true\n[random]\nseed = 9\nflip_bit_per_h = 12.5\n"
         "oven_silence_per_h = 1\n"
@@ -62,8 +61,7 @@ TEST_CASE("times in seconds, UTC or frames, and rates and seed of random faults 
     CHECK(script.random[1].fault.name == "oven_silence");
 }
 
-TEST_CASE("an error in a fault script is reported with file, line, key, value and what is allowed",
-          "[sim][fault_script]") {
+TEST_CASE("an error in a fault script is reported with file, line, key, value and what is allowed") {
     const auto refused = [](const std::string& toml, std::initializer_list<const char*> parts) {
         CAPTURE(toml);
         try {
@@ -96,7 +94,7 @@ TEST_CASE("an error in a fault script is reported with file, line, key, value an
     refused("kind =", {"faults.toml:1", "not TOML"});
 }
 
-TEST_CASE("an overrun is allowed only up to 50 times real time", "[sim][fault_script]") {
+TEST_CASE("an overrun is allowed only up to 50 times real time") {
     FaultRules rules = kRules;
     rules.speed = 50.0;
     CHECK(parse_fault("overrun", rules).kind == FaultKind::overrun);
@@ -104,7 +102,7 @@ TEST_CASE("an overrun is allowed only up to 50 times real time", "[sim][fault_sc
     CHECK_THROWS_WITH(parse_fault("overrun", rules), ContainsSubstring("up to 50"));
 }
 
-TEST_CASE("words that are not a fault are refused in one line", "[sim][fault_script]") {
+TEST_CASE("words that are not a fault are refused in one line") {
     for (const std::string words :
          {"", "  ", "melt", "flip_bit 3", "flip_bit count", "flip_bit count=", "flip_bit =3",
           "flip_bit count=3 count=4", "flip_bit count=x", "flip_bit count=[1]",
@@ -122,7 +120,7 @@ TEST_CASE("words that are not a fault are refused in one line", "[sim][fault_scr
     CHECK(fault.loses_power);
 }
 
-TEST_CASE("the example script is read", "[sim][fault_script]") {
+TEST_CASE("the example script is read") {
     const auto example = std::filesystem::path(A351_GOLDEN).parent_path().parent_path() /
                          "config/faults/example.toml";
     const FaultScript script = read_fault_script(example, kStart, kRules);
@@ -130,7 +128,7 @@ TEST_CASE("the example script is read", "[sim][fault_script]") {
     CHECK(script.random.size() > 1);
 }
 
-TEST_CASE("each order of the control socket starts its action", "[sim][control]") {
+TEST_CASE("each order of the control socket starts its action") {
     std::string done;
     const ControlActions actions{[] { return std::string("{}"); }, [&done] { done = "edge"; },
                                  [&done] { done = "quit"; },

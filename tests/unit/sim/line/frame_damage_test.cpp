@@ -37,7 +37,7 @@ std::size_t bits_apart(const Bytes& a, const Bytes& b) {
 
 }  // namespace
 
-TEST_CASE("a damaged frame does not contain the original frame", "[sim][frame_damage]") {
+TEST_CASE("a damaged frame does not contain the original frame") {
     // 200 000 draws: each place and value of one byte is tried 30 times, also a second end marker.
     const Bytes whole = frame();
     RandomStream random(1, "test");
@@ -54,7 +54,7 @@ TEST_CASE("a damaged frame does not contain the original frame", "[sim][frame_da
     }
 }
 
-TEST_CASE("the requested number of bits is flipped, in one word or marker", "[sim][frame_damage]") {
+TEST_CASE("the requested number of bits is flipped, in one word or marker") {
     const Bytes whole = frame();
     RandomStream random(1, "test");
     for (int i = 0; i < 5000; ++i) {
@@ -68,7 +68,7 @@ TEST_CASE("the requested number of bits is flipped, in one word or marker", "[si
     }
 }
 
-TEST_CASE("a bad checksum leaves the rest of the frame unchanged", "[sim][frame_damage]") {
+TEST_CASE("a bad checksum leaves the rest of the frame unchanged") {
     const Bytes whole = frame();
     REQUIRE(has_right_checksum(whole));
     RandomStream random(1, "test");
@@ -80,8 +80,7 @@ TEST_CASE("a bad checksum leaves the rest of the frame unchanged", "[sim][frame_
     }
 }
 
-TEST_CASE("even without a checksum, a million inserted bytes contain no frame",
-          "[sim][frame_damage]") {
+TEST_CASE("even without a checksum, a million inserted bytes contain no frame") {
     wire::BurstValues values;
     values.temperature = 2466;
     values.axes = {-203896, 604794, 16713252};

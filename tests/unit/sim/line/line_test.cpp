@@ -51,7 +51,7 @@ using Indices = std::vector<std::uint32_t>;
 
 }  // namespace
 
-TEST_CASE("a frame counts as sent once its last byte has gone", "[sim][line]") {
+TEST_CASE("a frame counts as sent once its last byte has gone") {
     SettledFrames frames;
     Line& line = frames.line;
     const UtcTime due{1s};
@@ -70,7 +70,7 @@ TEST_CASE("a frame counts as sent once its last byte has gone", "[sim][line]") {
     CHECK(line.is_empty());
 }
 
-TEST_CASE("bytes that the host has not seen are taken back from the line", "[sim][line]") {
+TEST_CASE("bytes that the host has not seen are taken back from the line") {
     SettledFrames frames;
     const auto bytes = every_byte();
     frames.line.send(bytes, UtcTime(1s), nullptr);
@@ -81,8 +81,7 @@ TEST_CASE("bytes that the host has not seen are taken back from the line", "[sim
     CHECK(frames.line.shown(UtcTime(2s)).size() == kFrameBytes.size());
 }
 
-TEST_CASE("the steady lateness is the largest of the minima over blocks of fifty frames",
-          "[sim][line]") {
+TEST_CASE("the steady lateness is the largest of the minima over blocks of fifty frames") {
     SettledFrames frames;
     for (std::uint32_t i = 0; i < 175; ++i) {
         // 0 to 9 ms; in the second block 4 to 13 ms; in the last, incomplete block 900 ms and more.
@@ -94,7 +93,7 @@ TEST_CASE("the steady lateness is the largest of the minima over blocks of fifty
     CHECK(frames.line.report().largest_lateness == 909ms);
 }
 
-TEST_CASE("bytes leave in the order in which they came, including answers", "[sim][line]") {
+TEST_CASE("bytes leave in the order in which they came, including answers") {
     scenario::LineParameters parameters;
     parameters.latency_timer_ms = 16.0;
     parameters.is_bytewise = GENERATE(false, true);
@@ -122,8 +121,7 @@ TEST_CASE("bytes leave in the order in which they came, including answers", "[si
           line.report().bytes_handed_over);
 }
 
-TEST_CASE("every frame has one fate, wherever an overrun, unplugging or the end cuts the stream",
-          "[sim][line]") {
+TEST_CASE("every frame has one fate, wherever an overrun, unplugging or the end cuts the stream") {
     enum class Cut { overrun, unplugging, end };
     for (const Cut by : {Cut::overrun, Cut::unplugging, Cut::end}) {
         for (std::size_t cut = 0; cut <= 3 * 24; ++cut) {
@@ -157,8 +155,7 @@ TEST_CASE("every frame has one fate, wherever an overrun, unplugging or the end 
     }
 }
 
-TEST_CASE("frames lost on purpose are not counted again as lost by unplugging or overrun",
-          "[sim][line]") {
+TEST_CASE("frames lost on purpose are not counted again as lost by unplugging or overrun") {
     for (const bool is_overrun : {true, false}) {
         SettledFrames frames;
         frames.line.hold_until(UtcTime(1h));
@@ -171,7 +168,7 @@ TEST_CASE("frames lost on purpose are not counted again as lost by unplugging or
     }
 }
 
-TEST_CASE("a lost frame without bytes is settled in its turn", "[sim][line]") {
+TEST_CASE("a lost frame without bytes is settled in its turn") {
     SettledFrames frames;
     frames.send(1);
     frames.send(2, UtcTime(0s), Fate::lost);
@@ -183,7 +180,7 @@ TEST_CASE("a lost frame without bytes is settled in its turn", "[sim][line]") {
     CHECK(frames.settled == Indices{1, 2, 3});
 }
 
-TEST_CASE("no frame arrives if device and host have different speeds", "[sim][line]") {
+TEST_CASE("no frame arrives if device and host have different speeds") {
     SettledFrames frames;
     frames.line.set_speeds(460800, 115200);
     frames.send(1);
@@ -194,7 +191,7 @@ TEST_CASE("no frame arrives if device and host have different speeds", "[sim][li
     CHECK(frames.line.report().frames_sent == 0);
 }
 
-TEST_CASE("paced bytes arrive one by one, each when it ends on the wire", "[sim][line]") {
+TEST_CASE("paced bytes arrive one by one, each when it ends on the wire") {
     scenario::LineParameters parameters;
     parameters.is_paced = true;
     SettledFrames frames(parameters);
@@ -209,7 +206,7 @@ TEST_CASE("paced bytes arrive one by one, each when it ends on the wire", "[sim]
     }
 }
 
-TEST_CASE("runs of sampling are counted separately", "[sim][line]") {
+TEST_CASE("runs of sampling are counted separately") {
     SettledFrames frames;
     for (const std::uint32_t index : {7U, 8U, 1008U, 1009U, 1010U})
         frames.send(index, UtcTime(0s), Fate::intact, index < 1000 ? 1 : 2);
@@ -221,7 +218,7 @@ TEST_CASE("runs of sampling are counted separately", "[sim][line]") {
     CHECK(frames.line.report().runs[1].frames == 3);
 }
 
-TEST_CASE("a speed error of less than half a bit in ten changes no byte", "[sim][baud]") {
+TEST_CASE("a speed error of less than half a bit in ten changes no byte") {
     const auto all = every_byte();
     for (const int baud : {9600, 115200, 460800}) CHECK(received_at_baud(all, baud, baud) == all);
     CHECK(received_at_baud({}, 115200, 460800).empty());
@@ -230,8 +227,7 @@ TEST_CASE("a speed error of less than half a bit in ten changes no byte", "[sim]
     CHECK(received_at_baud(all, 100000, 120000) != all);
 }
 
-TEST_CASE("at half the speed two bytes are received as one, at twice the speed one byte as two",
-          "[sim][baud]") {
+TEST_CASE("at half the speed two bytes are received as one, at twice the speed one byte as two") {
     using device::bytes_of;
     using device::hex_of;
     // Bits on the line: 0 is the start bit, 1 to 8 are low, 9 is the stop bit, then the same again.

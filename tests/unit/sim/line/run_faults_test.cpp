@@ -25,7 +25,7 @@ void order(Rig& rig, std::string_view words) {
 
 }  // namespace
 
-TEST_CASE("error flags are in as many frames as requested", "[sim][fault]") {
+TEST_CASE("error flags are in as many frames as requested") {
     Rig rig(fault("error_flags", "at_frame = 100\ncount = 7\ndiag_stat = 0x20"));
     const Decoded decoded = check_report(rig);
     for (std::size_t i = 0; i < decoded.frames.size(); ++i) {
@@ -34,7 +34,7 @@ TEST_CASE("error flags are in as many frames as requested", "[sim][fault]") {
     CHECK(rig.line.report().frames_flagged == 7);
 }
 
-TEST_CASE("a counter fault outside sampling begins with the next frame", "[sim][fault]") {
+TEST_CASE("a counter fault outside sampling begins with the next frame") {
     using Counts = std::vector<std::uint16_t>;
     // After a reset the second frame shows the COUNT of the first.
     const bool is_stuck = GENERATE(true, false);
@@ -53,7 +53,7 @@ TEST_CASE("a counter fault outside sampling begins with the next frame", "[sim][
     CHECK(rig.line.report().frames_misplaced == 0);
 }
 
-TEST_CASE("the end of sampling ends a stuck counter", "[sim][fault]") {
+TEST_CASE("the end of sampling ends a stuck counter") {
     const bool is_seen = GENERATE(false, true);
     Rig rig(fault("counter_stuck", "at_frame = 50\ncount = 1000"));
     rig.run_to(UtcTime(5s));
@@ -68,8 +68,7 @@ TEST_CASE("the end of sampling ends a stuck counter", "[sim][fault]") {
     }
 }
 
-TEST_CASE("a counter jump that is overtaken by the end of sampling happens in the next run",
-          "[sim][fault]") {
+TEST_CASE("a counter jump that is overtaken by the end of sampling happens in the next run") {
     Rig rig(fault("counter_jump", "at_frame = 50\nticks = 7") + fault("stop", "at_frame = 50"));
     rig.run_to(UtcTime(3s));
     rig.bench.send({"83 01"});
@@ -80,7 +79,7 @@ TEST_CASE("a counter jump that is overtaken by the end of sampling happens in th
     CHECK(rig.line.report().frames_misplaced == 1);
 }
 
-TEST_CASE("error flags of a start-up are not counted as requested ones", "[sim][fault]") {
+TEST_CASE("error flags of a start-up are not counted as requested ones") {
     Rig rig(fault("error_flags", "at_frame = 50\ncount = 1000\ndiag_stat = 0x20") +
             fault("reset", "at_frame = 80") + fault("failing_tests", "at_s = 4\ndiag_stat = 0x20") +
             fault("reset", "at_s = 5"));
@@ -93,8 +92,7 @@ TEST_CASE("error flags of a start-up are not counted as requested ones", "[sim][
     CHECK(rig.line.report().frames_flagged > 1000);  // Genuine ones.
 }
 
-TEST_CASE("after the host has read DIAG_STAT, later error flags are not counted for the fault",
-          "[sim][fault]") {
+TEST_CASE("after the host has read DIAG_STAT, later error flags are not counted for the fault") {
     Rig rig(fault("error_flags", "at_frame = 50\ncount = 1000\ndiag_stat = 0x20"));
     rig.run_to(UtcTime(3s));
     const auto flagged = rig.line.report().frames_flagged;
@@ -106,7 +104,7 @@ TEST_CASE("after the host has read DIAG_STAT, later error flags are not counted 
     CHECK(rig.line.report().frames_flagged > flagged + 1000);
 }
 
-TEST_CASE("error flags that no frame carries are not counted", "[sim][fault]") {
+TEST_CASE("error flags that no frame carries are not counted") {
     Rig rig(fault("error_flags", "at_frame = 50\ncount = 20"));
     rig.bench.send({"83 02", "FE 01", "8D 47", "FE 00", "83 01"});  // Without FLAG.
     rig.run_to(UtcTime(10s));

@@ -141,8 +141,7 @@ constexpr std::string_view kStartLogging =
 
 }  // namespace
 
-TEST_CASE("nothing is unread only when the host has read all, also right after a write",
-          "[sim][pty]") {
+TEST_CASE("nothing is unread only when the host has read all, also right after a write") {
     Pty pty(link_path("unread"));
     const int host = ::open(pty.slave_path().c_str(), O_RDONLY | O_NOCTTY | O_CLOEXEC);
     REQUIRE(host >= 0);
@@ -160,8 +159,7 @@ TEST_CASE("nothing is unread only when the host has read all, also right after a
     CHECK(left == 0);
 }
 
-TEST_CASE("a host configures the device, does not read for a while, and loses no frame",
-          "[sim][sensor_port]") {
+TEST_CASE("a host configures the device, does not read for a while, and loses no frame") {
     Served served("stall", 1000.0);
     Host host(served.link);
     host.send("FE 01 0D 6A 00 0D");
@@ -187,8 +185,7 @@ TEST_CASE("a host configures the device, does not read for a while, and loses no
     CHECK(served.line.report().largest_lateness > 100s);
 }
 
-TEST_CASE("the terminal is raw: every byte value passes both ways, at each visit of a host",
-          "[sim][pty]") {
+TEST_CASE("the terminal is raw: every byte value passes both ways, at each visit of a host") {
     const auto link = link_path("raw");
     Pty pty(link);
     for (int visit = 0; visit < 2; ++visit) {
@@ -214,8 +211,7 @@ TEST_CASE("the terminal is raw: every byte value passes both ways, at each visit
     CHECK(got == all);
 }
 
-TEST_CASE("the link replaces a stale one and is removed with the device, unless it is another's",
-          "[sim][pty]") {
+TEST_CASE("the link replaces a stale one and is removed with the device, unless it is another's") {
     const auto link = link_path("link");
     std::filesystem::create_symlink("/dev/pts/987654", link);
     {
@@ -232,7 +228,7 @@ TEST_CASE("the link replaces a stale one and is removed with the device, unless 
     std::filesystem::remove(link);
 }
 
-TEST_CASE("a path that belongs to somebody else is refused and left in place", "[sim][pty]") {
+TEST_CASE("a path that belongs to somebody else is refused and left in place") {
     const auto link = link_path("foreign");
     const auto refused = [&link] {
         CHECK_THROWS_AS(Pty(link), InputError);
@@ -255,7 +251,7 @@ TEST_CASE("a path that belongs to somebody else is refused and left in place", "
     refused();
 }
 
-TEST_CASE("a terminal that hangs up comes back under another name", "[sim][pty]") {
+TEST_CASE("a terminal that hangs up comes back under another name") {
     const auto link = link_path("hang_up");
     Pty pty(link, 115200);
     CHECK(pty.baud() == 115200);
@@ -273,8 +269,7 @@ TEST_CASE("a terminal that hangs up comes back under another name", "[sim][pty]"
     CHECK(pty.baud() == 115200);
 }
 
-TEST_CASE("nothing is understood at a wrong speed, and everything at the right one",
-          "[sim][sensor_port]") {
+TEST_CASE("nothing is understood at a wrong speed, and everything at the right one") {
     Served served("speed", 1.0);
     Host host(served.link);
     host.set_speed(B115200);
@@ -287,8 +282,7 @@ TEST_CASE("nothing is understood at a wrong speed, and everything at the right o
     CHECK(hex_of(host.receive(4)) == "6A 33 41 0D");
 }
 
-TEST_CASE("a device that waits for the baud rate sends nothing at another one",
-          "[sim][sensor_port]") {
+TEST_CASE("a device that waits for the baud rate sends nothing at another one") {
     struct Waiting final : LineDevice {
         void receive(std::span<const std::byte>, const Instant&, LineSink&) override {}
         void advance_to(const Instant& now, LineSink& line) override {
@@ -312,8 +306,7 @@ TEST_CASE("a device that waits for the baud rate sends nothing at another one",
     CHECK(hex_of(host.receive(1)) == "80");
 }
 
-TEST_CASE("an overrun loses the frames that do not fit and reports their exact number",
-          "[sim][sensor_port]") {
+TEST_CASE("an overrun loses the frames that do not fit and reports their exact number") {
     Served served("overrun", 50.0);
     served.apply("overrun", served.scenario.start());
     Host host(served.link);
@@ -342,7 +335,7 @@ TEST_CASE("an overrun loses the frames that do not fit and reports their exact n
     CHECK(served.truth.size() == static_cast<std::size_t>(report.frames_made));
 }
 
-TEST_CASE("at the end every frame and every unread byte is accounted for", "[sim][sensor_port]") {
+TEST_CASE("at the end every frame and every unread byte is accounted for") {
     Served served("settled", 1000.0);
     Host host(served.link);
     host.send(kStartLogging);
@@ -366,8 +359,7 @@ TEST_CASE("at the end every frame and every unread byte is accounted for", "[sim
           (is_reading ? 0 : static_cast<std::size_t>(report.bytes_handed_over)));
 }
 
-TEST_CASE("if a file has taken the link's place the port stays unplugged, reports it and waits",
-          "[sim][sensor_port]") {
+TEST_CASE("if a file has taken the link's place the port stays unplugged, reports it and waits") {
     Served served("taken", 50.0);
     const auto gone = [&served](bool is_gone) {
         for (int i = 0; i < 400; ++i) {

@@ -44,7 +44,7 @@ std::vector<double> delays_ms(const std::vector<Passage>& passages) {
 
 }  // namespace
 
-TEST_CASE("bytes are never shown early or out of order", "[sim][transport]") {
+TEST_CASE("bytes are never shown early or out of order") {
     LineParameters parameters;
     parameters.latency_timer_ms = 16.0;
     parameters.latency_timer_ppm = 30.0;
@@ -59,7 +59,7 @@ TEST_CASE("bytes are never shown early or out of order", "[sim][transport]") {
     }
 }
 
-TEST_CASE("a 16 ms timer delays a 20 ms stream by four values that repeat", "[sim][transport]") {
+TEST_CASE("a 16 ms timer delays a 20 ms stream by four values that repeat") {
     // 16 ms and 20 ms share 4 ms: the delay repeats every four frames (locked beat).
     LineParameters parameters;
     parameters.latency_timer_ms = 16.0;
@@ -75,7 +75,7 @@ TEST_CASE("a 16 ms timer delays a 20 ms stream by four values that repeat", "[si
     CHECK((mean > 5.9 && mean < 10.1));
 }
 
-TEST_CASE("a timer that drifts gives all delays", "[sim][transport]") {
+TEST_CASE("a timer that drifts gives all delays") {
     LineParameters parameters;
     parameters.latency_timer_ms = 16.0;
     parameters.latency_timer_ppm = 30.0;
@@ -92,7 +92,7 @@ TEST_CASE("a timer that drifts gives all delays", "[sim][transport]") {
     CHECK(most > 15.98);
 }
 
-TEST_CASE("polls lie on a grid, and jitter stays below its limit", "[sim][transport]") {
+TEST_CASE("polls lie on a grid, and jitter stays below its limit") {
     LineParameters parameters;
     parameters.usb_poll_ms = 1.0;
     const auto polled = carry(parameters, 1000);
@@ -111,7 +111,7 @@ TEST_CASE("polls lie on a grid, and jitter stays below its limit", "[sim][transp
     CHECK(sum / 5000 == Approx(1.0).margin(0.05));  // 6 sigma of a uniform mean.
 }
 
-TEST_CASE("stalls have the requested rate and length", "[sim][transport]") {
+TEST_CASE("stalls have the requested rate and length") {
     LineParameters parameters;
     parameters.stall_per_h = 120.0;
     parameters.stall_s = {0.1, 0.2};
@@ -127,7 +127,7 @@ TEST_CASE("stalls have the requested rate and length", "[sim][transport]") {
     CHECK(std::abs(stalls - 120 * hours) < 5 * std::sqrt(120.0 * hours));
 }
 
-TEST_CASE("a full packet does not wait for the timer", "[sim][transport]") {
+TEST_CASE("a full packet does not wait for the timer") {
     LineParameters parameters;
     parameters.latency_timer_ms = 16.0;
     Transport transport(parameters, 1, UtcTime(0s));
@@ -140,7 +140,7 @@ TEST_CASE("a full packet does not wait for the timer", "[sim][transport]") {
     CHECK(transport.shown_at(71) > full);
 }
 
-TEST_CASE("held bytes come in one burst, at the end of the longest hold", "[sim][transport]") {
+TEST_CASE("held bytes come in one burst, at the end of the longest hold") {
     Transport transport({}, 1, UtcTime(0s));
     transport.carry(kFrame, UtcTime(1s));
     transport.hold_until(UtcTime(3s));
@@ -157,8 +157,7 @@ TEST_CASE("held bytes come in one burst, at the end of the longest hold", "[sim]
     CHECK(transport.next_shown() == UtcTime(8s));
 }
 
-TEST_CASE("the delays depend only on the seed, and there are none without parameters",
-          "[sim][transport]") {
+TEST_CASE("the delays depend only on the seed, and there are none without parameters") {
     LineParameters parameters;
     parameters.latency_timer_ms = 16.0;
     parameters.jitter_ms = 2.0;

@@ -10,8 +10,7 @@ using namespace a351;
 using namespace a351::sim;
 using namespace a351::sim::truth;
 
-TEST_CASE("a truth file replaces an empty file or a truth file, and no other file",
-          "[sim][truth]") {
+TEST_CASE("a truth file replaces an empty file or a truth file, and no other file") {
     const test::TemporaryDirectory directory;
     const auto file = directory.path() / "truth.bin";
     const auto write = [&file](std::string_view text) { std::ofstream(file) << text; };
@@ -29,7 +28,7 @@ TEST_CASE("a truth file replaces an empty file or a truth file, and no other fil
     }
 }
 
-TEST_CASE("a truth file gives its records back", "[sim][truth]") {
+TEST_CASE("a truth file gives its records back") {
     const test::TemporaryDirectory directory;
     truth::Record record;
     record.utc = *parse_rfc3339("2017-07-16T00:00:00.020Z");

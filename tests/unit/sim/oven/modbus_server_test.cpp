@@ -63,7 +63,7 @@ const Bytes kPv = bytes_of("01 03 02 01 A9 79 AA");
 
 }  // namespace
 
-TEST_CASE("the golden conversation is answered byte for byte", "[sim][modbus_server]") {
+TEST_CASE("the golden conversation is answered byte for byte") {
     std::ifstream file(A351_GOLDEN "/oven/frames.txt");
     REQUIRE(file);
     Bench bench;
@@ -90,8 +90,7 @@ TEST_CASE("the golden conversation is answered byte for byte", "[sim][modbus_ser
     CHECK(requests == 41);
 }
 
-TEST_CASE("an answer is due after the line time of request and answer and a wait of 20 ms",
-          "[sim][modbus_server]") {
+TEST_CASE("an answer is due after the line time of request and answer and a wait of 20 ms") {
     Bench bench;
     const Nanoseconds start = bench.now;
     bench.server.receive(kReadPv, start);
@@ -103,8 +102,7 @@ TEST_CASE("an answer is due after the line time of request and answer and a wait
     CHECK(bench.server.next_due() == std::nullopt);
 }
 
-TEST_CASE("a request in pieces is understood if the pauses are below 3.5 characters",
-          "[sim][modbus_server]") {
+TEST_CASE("a request in pieces is understood if the pauses are below 3.5 characters") {
     // 3.5 characters at 9600 baud are 4.01 ms.
     for (const auto& [pause, is_understood] :
          {std::pair{Nanoseconds(4ms), true}, {4100us, false}}) {
@@ -121,8 +119,7 @@ TEST_CASE("a request in pieces is understood if the pauses are below 3.5 charact
     }
 }
 
-TEST_CASE("requests are ignored after noise until there was silence, and while an answer is due",
-          "[sim][modbus_server]") {
+TEST_CASE("requests are ignored after noise until there was silence, and while an answer is due") {
     Bench bench;
     bench.server.receive(bytes_of("01 03 FF 00 00 FF 00 55"), bench.now);
     bench.server.receive(kReadPv, bench.now + 1ms);
@@ -139,8 +136,7 @@ TEST_CASE("requests are ignored after noise until there was silence, and while a
     CHECK(bench.server.report().answers == 2);
 }
 
-TEST_CASE("bytes that are ignored in one run count once, however they are split",
-          "[sim][modbus_server]") {
+TEST_CASE("bytes that are ignored in one run count once, however they are split") {
     // A byte takes 1.1 ms at 9600 baud; the answer is due after 37 ms.
     for (const std::size_t piece : {std::size_t{1}, std::size_t{3}, kReadPv.size()}) {
         CAPTURE(piece);
@@ -168,7 +164,7 @@ TEST_CASE("bytes that are ignored in one run count once, however they are split"
     }
 }
 
-TEST_CASE("an answer is counted when it leaves or is lost", "[sim][modbus_server]") {
+TEST_CASE("an answer is counted when it leaves or is lost") {
     Bench bench;
     bench.server.receive(kReadPv, bench.now);
     CHECK(total(bench.server.report()) == 0);
@@ -198,8 +194,7 @@ TEST_CASE("an answer is counted when it leaves or is lost", "[sim][modbus_server
     CHECK(total(bench.server.report()) == 4);
 }
 
-TEST_CASE("a software reset is counted once, and requested faults wait until the restart is over",
-          "[sim][modbus_server]") {
+TEST_CASE("a software reset is counted once, and requested faults wait until the restart is over") {
     Bench bench;
     REQUIRE(bench.controller.operate(0, 1) == std::nullopt);
     bench.server.fail_next(oven::Fault::truncated, 1);
@@ -218,8 +213,7 @@ TEST_CASE("a software reset is counted once, and requested faults wait until the
     CHECK(total(bench.server.report()) == 5);
 }
 
-TEST_CASE("each fault spoils the requested number of answers in its own way",
-          "[sim][modbus_server]") {
+TEST_CASE("each fault spoils the requested number of answers in its own way") {
     Bench bench;
     const auto spoilt = [&bench](oven::Fault fault) {
         bench.server.fail_next(fault, 2);
@@ -251,8 +245,7 @@ TEST_CASE("each fault spoils the requested number of answers in its own way",
     CHECK(bench.ask(kReadPv) == kPv);
 }
 
-TEST_CASE("a write lost in silence is not executed, a write with a spoilt answer is",
-          "[sim][modbus_server]") {
+TEST_CASE("a write lost in silence is not executed, a write with a spoilt answer is") {
     Bench bench;
     REQUIRE(bench.controller.operate(0, 1) == std::nullopt);
     const Bytes write = sealed(bytes_of("01 06 21 03 01 AE"));
@@ -264,7 +257,7 @@ TEST_CASE("a write lost in silence is not executed, a write with a spoilt answer
     CHECK(bench.oven.target == DegC(43.0));
 }
 
-TEST_CASE("a controller set to another protocol answers no more", "[sim][modbus_server]") {
+TEST_CASE("a controller set to another protocol answers no more") {
     Bench bench;
     REQUIRE(bench.controller.operate(0, 1) == std::nullopt);
     const Bytes setup = sealed(bytes_of("01 06 00 00 07 00"));
@@ -274,7 +267,7 @@ TEST_CASE("a controller set to another protocol answers no more", "[sim][modbus_
     CHECK(bench.ask(kReadPv).empty());
 }
 
-TEST_CASE("every request is counted once", "[sim][modbus_server]") {
+TEST_CASE("every request is counted once") {
     Bench bench;
     CHECK(bench.ask(sealed(bytes_of("07 03 20 00 00 01"))).empty());
     CHECK(bench.ask(sealed(bytes_of("00 06 21 03 01 AE"))).empty());
@@ -300,8 +293,7 @@ TEST_CASE("every request is counted once", "[sim][modbus_server]") {
     CHECK(total(report) == 16);
 }
 
-TEST_CASE("frames with a valid CRC and any length and function count once, however they are split",
-          "[sim][modbus_server]") {
+TEST_CASE("frames with a valid CRC and any length and function count once, however they are split") {
     std::mt19937 random(7);
     Bench bench;
     std::int64_t sent = 0;

@@ -59,8 +59,7 @@ struct Desk {
 
 }  // namespace
 
-TEST_CASE("both address modes show the same values, in digits of the display",
-          "[sim][oven_controller]") {
+TEST_CASE("both address modes show the same values, in digits of the display") {
     struct Pair {
         std::uint16_t four_byte, two_byte;
     };
@@ -86,8 +85,7 @@ TEST_CASE("both address modes show the same values, in digits of the display",
     CHECK(desk.shown(0x2000) == -32);
 }
 
-TEST_CASE("writing can be switched off again, and the lowest of several reasons to refuse is given",
-          "[sim][oven_controller]") {
+TEST_CASE("writing can be switched off again, and the lowest of several reasons to refuse is given") {
     Desk desk;
     CHECK(desk.put(0x2103, 430) == kDone);
     CHECK(desk.oven.target == DegC(43.0));
@@ -101,7 +99,7 @@ TEST_CASE("writing can be switched off again, and the lowest of several reasons 
     CHECK(desk.oven.target == DegC(43.0));
 }
 
-TEST_CASE("106 elements are read at once, and 104 written at most", "[sim][oven_controller]") {
+TEST_CASE("106 elements are read at once, and 104 written at most") {
     Desk desk;
     CHECK(desk.read_refusal(0x2000, 106) == kDone);
     CHECK(desk.read_refusal(0x2000, 107) == Refusal::data);
@@ -112,7 +110,7 @@ TEST_CASE("106 elements are read at once, and 104 written at most", "[sim][oven_
     CHECK(desk.controller.write(0x2103, Words{}) == Refusal::data);
 }
 
-TEST_CASE("several variables are written together or not at all", "[sim][oven_controller]") {
+TEST_CASE("several variables are written together or not at all") {
     Desk desk;
     CHECK(desk.controller.write(0x2103, Words{430, 50, 20, 10}) == kDone);
     CHECK(desk.shown(0x2103) == 430);
@@ -123,8 +121,7 @@ TEST_CASE("several variables are written together or not at all", "[sim][oven_co
     CHECK(desk.oven.target == DegC(43.0));
 }
 
-TEST_CASE("set point, P and I reach the oven within their limits, and only if they are written",
-          "[sim][oven_controller]") {
+TEST_CASE("set point, P and I reach the oven within their limits, and only if they are written") {
     Desk desk;
     desk.oven.target = DegC(42.53);
     desk.oven.pi = {5.0, 133.333};
@@ -144,8 +141,7 @@ TEST_CASE("set point, P and I reach the oven within their limits, and only if th
     CHECK(desk.put(0x2A00, 0) == Refusal::data);
 }
 
-TEST_CASE("a broken sensor shows as an input error and as the end of the range",
-          "[sim][oven_controller]") {
+TEST_CASE("a broken sensor shows as an input error and as the end of the range") {
     Desk desk;
     desk.oven.break_sensor(true);
     CHECK(desk.has(oven_status::kInputError));
@@ -164,7 +160,7 @@ TEST_CASE("a broken sensor shows as an input error and as the end of the range",
     CHECK_FALSE(desk.has(oven_status::kInputError));
 }
 
-TEST_CASE("alarm 1 is raised at its distance above the set point", "[sim][oven_controller]") {
+TEST_CASE("alarm 1 is raised at its distance above the set point") {
     Desk desk;
     desk.oven.reading = DegC(52.4);
     CHECK_FALSE(desk.has(oven_status::kAlarm1));
@@ -172,7 +168,7 @@ TEST_CASE("alarm 1 is raised at its distance above the set point", "[sim][oven_c
     CHECK(desk.has(oven_status::kAlarm1));
 }
 
-TEST_CASE("values written to RAM only are lost in a restart", "[sim][oven_controller]") {
+TEST_CASE("values written to RAM only are lost in a restart") {
     Desk desk;
     CHECK(desk.operate(0x04, 0x01) == kDone);
     CHECK(desk.put(0x2103, 440) == kDone);
@@ -198,8 +194,7 @@ TEST_CASE("values written to RAM only are lost in a restart", "[sim][oven_contro
     CHECK_FALSE(desk.has(oven_status::kRamMode | oven_status::kRamDiffers));
 }
 
-TEST_CASE("initial settings can be written in setup area 1 only, where control is stopped",
-          "[sim][oven_controller]") {
+TEST_CASE("initial settings can be written in setup area 1 only, where control is stopped") {
     Desk desk;
     CHECK(desk.put(0x2D14, 0) == Refusal::operation);
     CHECK(desk.operate(0x07, 0x00) == kDone);
@@ -215,7 +210,7 @@ TEST_CASE("initial settings can be written in setup area 1 only, where control i
     CHECK(desk.oven.kind == ControllerKind::on_off);
 }
 
-TEST_CASE("input type 5 shows whole degrees", "[sim][oven_controller]") {
+TEST_CASE("input type 5 shows whole degrees") {
     Desk desk;
     desk.oven.reading = DegC(42.7);
     REQUIRE(desk.operate(0x07, 0x00) == kDone);
@@ -230,7 +225,7 @@ TEST_CASE("input type 5 shows whole degrees", "[sim][oven_controller]") {
     CHECK(desk.oven.target == DegC(425.0));
 }
 
-TEST_CASE("commands that this controller cannot execute are refused", "[sim][oven_controller]") {
+TEST_CASE("commands that this controller cannot execute are refused") {
     struct Case {
         std::uint8_t command, parameter;
         std::optional<Refusal> refusal;

@@ -98,7 +98,7 @@ private:
 
 }  // namespace
 
-TEST_CASE("libmodbus reads and writes the oven", "[sim][oven_port]") {
+TEST_CASE("libmodbus reads and writes the oven") {
     RunningOven running;
     running.start();
     Master master(running.link);
@@ -138,8 +138,7 @@ TEST_CASE("libmodbus reads and writes the oven", "[sim][oven_port]") {
     CHECK(running.port().report().unreadable == 0);
 }
 
-TEST_CASE("libmodbus reports each fault correctly, and the next answer is good",
-          "[sim][oven_port]") {
+TEST_CASE("libmodbus reports each fault correctly, and the next answer is good") {
     struct Case {
         std::string_view kind;
         int error;
@@ -163,7 +162,7 @@ TEST_CASE("libmodbus reports each fault correctly, and the next answer is good",
     }
 }
 
-TEST_CASE("the oven sensor is broken and repaired by the name of the fault", "[sim][oven_port]") {
+TEST_CASE("the oven sensor is broken and repaired by the name of the fault") {
     RunningOven running;
     CHECK_FALSE(running.port().apply_fault("oven_fire", 1));
     for (const std::string_view kind : oven::Port::fault_kinds()) {
@@ -181,7 +180,7 @@ TEST_CASE("the oven sensor is broken and repaired by the name of the fault", "[s
     CHECK(master.read(0x2001) == 0x0100);
 }
 
-TEST_CASE("a master at another speed is not understood", "[sim][oven_port]") {
+TEST_CASE("a master at another speed is not understood") {
     RunningOven running;
     running.start();
     Master master(running.link, 19200);
@@ -193,8 +192,7 @@ TEST_CASE("a master at another speed is not understood", "[sim][oven_port]") {
     CHECK(running.port().report().answers == 0);
 }
 
-TEST_CASE("an answer is lost if the oven is unplugged, and the next comes after plug and restart",
-          "[sim][oven_port]") {
+TEST_CASE("an answer is lost if the oven is unplugged, and the next comes after plug and restart") {
     RunningOven running;
     const device::Instant start{host_now(), 1h};
     const auto serve = [&](Nanoseconds after) {

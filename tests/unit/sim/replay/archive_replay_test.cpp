@@ -89,8 +89,7 @@ std::vector<wire::BurstValues> frames_of(const SentPieces& line, wire::BurstLayo
 
 }  // namespace
 
-TEST_CASE("a gap in an archive is an exact jump of the index, and a drift of record starts is none",
-          "[sim][replay]") {
+TEST_CASE("a gap in an archive is an exact jump of the index, and a drift of record starts is none") {
     Archive archive;
     // 0.2 % over 20 s: 40 ms, two samples.
     for (int k = 0; k < 1000; k += 100) archive.add_all(k, k + 100, k * 40us);
@@ -107,8 +106,7 @@ TEST_CASE("a gap in an archive is an exact jump of the index, and a drift of rec
     CHECK(samples.back().instant == kStart + 6199 * kPeriod + 41ms);
 }
 
-TEST_CASE("channels are joined by time, and a sample that one of them lacks is left out",
-          "[sim][replay]") {
+TEST_CASE("channels are joined by time, and a sample that one of them lacks is left out") {
     Archive archive;
     for (const std::size_t field : {0U, 1U, 3U}) archive.add(field, 0, 300);
     archive.add(2, 0, 120);
@@ -125,7 +123,7 @@ TEST_CASE("channels are joined by time, and a sample that one of them lacks is l
     CHECK(source.incomplete() == 40);
 }
 
-TEST_CASE("damage in a day file is skipped and reported", "[sim][replay]") {
+TEST_CASE("damage in a day file is skipped and reported") {
     Archive archive;
     archive.add_all(0, 300);
     auto bytes = test::read_bytes(archive.file(1));
@@ -138,7 +136,7 @@ TEST_CASE("damage in a day file is skipped and reported", "[sim][replay]") {
     CHECK(source.damage().front().byte_count == 100);
 }
 
-TEST_CASE("an archive without an axis, or with unknown axes, is refused", "[sim][replay]") {
+TEST_CASE("an archive without an axis, or with unknown axes, is refused") {
     Archive archive;
     archive.add(3, 0, 10);
     CHECK_THROWS_WITH(archive.open(), ContainsSubstring("no axis among the files"));
@@ -148,8 +146,7 @@ TEST_CASE("an archive without an axis, or with unknown axes, is refused", "[sim]
                       ContainsSubstring("BN1: not of the axes N,E,Z; allowed: --axes"));
 }
 
-TEST_CASE("an archive is sent from its first sample in the layout that the host configures",
-          "[sim][replay]") {
+TEST_CASE("an archive is sent from its first sample in the layout that the host configures") {
     Archive archive;
     archive.add_all(0, 200);
     archive.add_all(1300, 1400);
@@ -177,7 +174,7 @@ TEST_CASE("an archive is sent from its first sample in the layout that the host 
     CHECK_FALSE(device.next_due());
 }
 
-TEST_CASE("each run of sampling in an archive waits for the host to start it", "[sim][replay]") {
+TEST_CASE("each run of sampling in an archive waits for the host to start it") {
     Archive archive;
     for (std::size_t field = 0; field < 4; ++field) {
         archive.add(field, 0, 100, 0ns, true);
@@ -201,7 +198,7 @@ TEST_CASE("each run of sampling in an archive waits for the host to start it", "
     CHECK_FALSE(device.next_due());
 }
 
-TEST_CASE("samples of an archive leave the device after its delay", "[sim][replay]") {
+TEST_CASE("samples of an archive leave the device after its delay") {
     Archive archive;
     archive.add_all(0, 3);
     Device device(archive.open(), Timing::as_recorded, Nanoseconds(0));
@@ -216,7 +213,7 @@ TEST_CASE("samples of an archive leave the device after its delay", "[sim][repla
     }
 }
 
-TEST_CASE("fields and rates that an archive lacks are refused in one line", "[sim][replay]") {
+TEST_CASE("fields and rates that an archive lacks are refused in one line") {
     Archive archive;
     for (const std::size_t field : {0U, 1U, 2U}) archive.add(field, 0, 100);
     Device device(archive.open(), Timing::as_recorded, Nanoseconds(0));

@@ -98,8 +98,7 @@ Outcome replayed(const std::string& name, Timing timing) {
 
 }  // namespace
 
-TEST_CASE("every golden log replays to its expected samples and counters, at either speed",
-          "[sim][replay][golden]") {
+TEST_CASE("every golden log replays to its expected samples and counters, at either speed") {
     const std::string name = GENERATE("clean_start", "flipped_bits", "lost_bytes_and_garbage",
                                       "gap_over_a_wrap", "duplicates", "markers_in_payload");
     const auto timing = GENERATE(Timing::as_recorded, Timing::as_fast_as_read);

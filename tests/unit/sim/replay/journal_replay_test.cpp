@@ -87,8 +87,7 @@ using Times = std::vector<Nanoseconds>;
 
 }  // namespace
 
-TEST_CASE("a device that replays a journal has the identity and baud rate of the recorded unit",
-          "[sim][replay]") {
+TEST_CASE("a device that replays a journal has the identity and baud rate of the recorded unit") {
     auto header = header_of(1);
     header.baud = 115200;
     Replay replay({segment_of({header, read_of("a", 5s)})});
@@ -100,8 +99,7 @@ TEST_CASE("a device that replays a journal has the identity and baud rate of the
     CHECK(replay.device.baud() == 115200);
 }
 
-TEST_CASE("recorded bytes leave at their recorded times, and not before the host starts sampling",
-          "[sim][replay]") {
+TEST_CASE("recorded bytes leave at their recorded times, and not before the host starts sampling") {
     journal::RxChunk chunk = read_of("abcdef", 6s);
     chunk.reads = {{2, kRawStart + 6s}, {3, kRawStart + 6500ms}, {6, kRawStart + 9s}};
     // Raw time goes back to 7 s, as no real clock does: the order of the reads is kept.
@@ -118,8 +116,7 @@ TEST_CASE("recorded bytes leave at their recorded times, and not before the host
     CHECK_FALSE(replay.device.next_due());
 }
 
-TEST_CASE("a host that starts late gets the missed bytes at once and the rest on time",
-          "[sim][replay]") {
+TEST_CASE("a host that starts late gets the missed bytes at once and the rest on time") {
     Replay replay({three_words()}, Timing::as_recorded, kJournalStart + 7s);
     replay.configure();
     replay.host.wait(0s);
@@ -129,7 +126,7 @@ TEST_CASE("a host that starts late gets the missed bytes at once and the rest on
     CHECK(replay.left() == Times{7s, 7s, 9s});
 }
 
-TEST_CASE("without a shared clock the recording begins when the host begins", "[sim][replay]") {
+TEST_CASE("without a shared clock the recording begins when the host begins") {
     Replay replay({three_words()}, Timing::from_host_start, kJournalStart + 24h);
     replay.host.wait(1h);
     replay.configure();
@@ -137,7 +134,7 @@ TEST_CASE("without a shared clock the recording begins when the host begins", "[
     CHECK(replay.left() == Times{25h, 25h + 1s, 25h + 4s});
 }
 
-TEST_CASE("a replay as fast as it is read sends whenever the line accepts more", "[sim][replay]") {
+TEST_CASE("a replay as fast as it is read sends whenever the line accepts more") {
     Replay replay({three_words()}, Timing::as_fast_as_read, kJournalStart - 1h);
     replay.configure();
     replay.host.line.capacity = 2;
@@ -150,8 +147,7 @@ TEST_CASE("a replay as fast as it is read sends whenever the line accepts more",
     CHECK_FALSE(replay.device.next_due());
 }
 
-TEST_CASE("segments with one session id are two sessions if the boot differs or raw time goes back",
-          "[sim][replay]") {
+TEST_CASE("segments with one session id are two sessions if the boot differs or raw time goes back") {
     auto other_day = header_of(1);
     other_day.clock.realtime += 24h;
     if (GENERATE(false, true)) {
@@ -172,8 +168,7 @@ TEST_CASE("segments with one session id are two sessions if the boot differs or 
     CHECK(replay.device.report().sessions == 2);
 }
 
-TEST_CASE("a session ends in configuration mode, and the next waits for a new start",
-          "[sim][replay]") {
+TEST_CASE("a session ends in configuration mode, and the next waits for a new start") {
     auto third = header_of(3, 20s);
     third.serial_number = GENERATE("T0000007", "T0000008");
     const auto timing = GENERATE(Timing::as_recorded, Timing::as_fast_as_read);
@@ -193,8 +188,7 @@ TEST_CASE("a session ends in configuration mode, and the next waits for a new st
     CHECK_FALSE(replay.device.next_due());
 }
 
-TEST_CASE("a host that stops and starts again continues with the first byte it has not seen",
-          "[sim][replay]") {
+TEST_CASE("a host that stops and starts again continues with the first byte it has not seen") {
     const bool has_seen_all = GENERATE(true, false);
     Replay replay({three_words()});
     replay.configure();
@@ -209,7 +203,7 @@ TEST_CASE("a host that stops and starts again continues with the first byte it h
     CHECK(replay.device.report().sessions == 1);
 }
 
-TEST_CASE("a host that took a paused replay for a silent sensor misses no byte", "[sim][replay]") {
+TEST_CASE("a host that took a paused replay for a silent sensor misses no byte") {
     Replay replay({three_words()});
     ReplayHost& host = replay.host;
     replay.configure();
@@ -231,8 +225,7 @@ TEST_CASE("a host that took a paused replay for a silent sensor misses no byte",
     CHECK(replay.device.report().longest_delay == 1s);
 }
 
-TEST_CASE("a clock step of the recording host is not replayed within a boot, a step back never",
-          "[sim][replay]") {
+TEST_CASE("a clock step of the recording host is not replayed within a boot, a step back never") {
     auto stepped = header_of(2, 10s);
     stepped.clock.realtime += 1h;
     auto rebooted = header_of(3, 20s);
@@ -254,7 +247,7 @@ TEST_CASE("a clock step of the recording host is not replayed within a boot, a s
     }
 }
 
-TEST_CASE("settings other than the recorded ones are refused in one line", "[sim][replay]") {
+TEST_CASE("settings other than the recorded ones are refused in one line") {
     wire::SensorSettings settings;
     std::string asked;
     SECTION("the recorded ones") {}
@@ -280,8 +273,7 @@ TEST_CASE("settings other than the recorded ones are refused in one line", "[sim
     }
 }
 
-TEST_CASE("a damaged tail is left out and reported, and good data before and after it are replayed",
-          "[sim][replay]") {
+TEST_CASE("a damaged tail is left out and reported, and good data before and after it are replayed") {
     auto damaged =
         segment_of({header_of(1), read_of("one", 5s), read_of("two", 6s), read_of("x", 7s)});
     damaged.back() ^= std::byte{1};

@@ -33,8 +33,7 @@ std::string refusal(std::vector<fs::path> files) {
 
 }  // namespace
 
-TEST_CASE("a file that cannot be replayed is refused with its name and what is allowed",
-          "[sim][replay]") {
+TEST_CASE("a file that cannot be replayed is refused with its name and what is allowed") {
     const test::TemporaryDirectory directory;
     const fs::path file = directory.path() / "00000001_x.a351j";
     const auto with = [&](std::span<const std::byte> bytes) {
@@ -77,8 +76,7 @@ TEST_CASE("a file that cannot be replayed is refused with its name and what is a
     CHECK(refusal({file, other}).starts_with(other.string() + ": not a journal segment, "));
 }
 
-TEST_CASE("a directory is replayed as its segments in the order of their numbers",
-          "[sim][replay]") {
+TEST_CASE("a directory is replayed as its segments in the order of their numbers") {
     const test::TemporaryDirectory directory;
     CHECK(refusal({directory.path()}) ==
           directory.path().string() +
@@ -94,7 +92,7 @@ TEST_CASE("a directory is replayed as its segments in the order of their numbers
               .identity.firmware == 3);
 }
 
-TEST_CASE("in a directory, segments without a header are skipped and reported", "[sim][replay]") {
+TEST_CASE("in a directory, segments without a header are skipped and reported") {
     const test::TemporaryDirectory directory;
     auto torn = good_segment();
     torn.resize(60);

@@ -31,8 +31,7 @@ Scenario box_with(double share) {
 
 }  // namespace
 
-TEST_CASE("with the lid open the air approaches the outside temperature, and returns afterwards",
-          "[sim][cool_box]") {
+TEST_CASE("with the lid open the air approaches the outside temperature, and returns afterwards") {
     // The record starts at 20:42:12; the lid is open for 10 min, from 18 min after that.
     const Scenario scenario =
         day("[[lid_open]]\nfrom_utc = \"2017-07-15T21:00:12Z\"\nto_utc = \"2017-07-15T21:10:12Z\"\n"
@@ -49,7 +48,7 @@ TEST_CASE("with the lid open the air approaches the outside temperature, and ret
         Approx(25.0 + reached * std::exp(-later_s / scenario.cool_box.closed_tau_s)).margin(1e-6));
 }
 
-TEST_CASE("a lid left open at a stay is open from its start to its end", "[sim][cool_box]") {
+TEST_CASE("a lid left open at a stay is open from its start to its end") {
     const Scenario scenario =
         day("[schedule]\nsetups = 2\n[[lid_open]]\nsite = \"No.12\"\noutside_degc = 35\n");
     const auto plan = plan_survey(scenario, 1);
@@ -65,7 +64,7 @@ TEST_CASE("a lid left open at a stay is open from its start to its end", "[sim][
     CHECK(air[second(plan[3].end) + 60] < air[second(plan[3].end) + 2]);
 }
 
-TEST_CASE("the random walk of the air grows with the square root of time", "[sim][cool_box]") {
+TEST_CASE("the random walk of the air grows with the square root of time") {
     const Scenario scenario = day("[cool_box]\nwalk_degc_per_sqrt_h = 0.5\n");
     constexpr int kSeeds = 400;
     double hour = 0.0, four_hours = 0.0;
@@ -79,7 +78,7 @@ TEST_CASE("the random walk of the air grows with the square root of time", "[sim
     CHECK(four_hours == Approx(1.0).epsilon(0.2));
 }
 
-TEST_CASE("the sensors of a box have the same stays, levelling and air", "[sim][box]") {
+TEST_CASE("the sensors of a box have the same stays, levelling and air") {
     const Scenario scenario = box_with(0.0);
     const auto one = plan_survey(scenario, 1), other = plan_survey(scenario, 2);
     REQUIRE(one.size() == other.size());
@@ -93,8 +92,7 @@ TEST_CASE("the sensors of a box have the same stays, levelling and air", "[sim][
     for (int k = 0; k < 1000; ++k) CHECK(of_one.next().value() == of_other.next().value());
 }
 
-TEST_CASE("the placement of a box is common to its sensors in the share that is given",
-          "[sim][box]") {
+TEST_CASE("the placement of a box is common to its sensors in the share that is given") {
     for (const double share : {0.0, 0.5, 1.0}) {
         double products = 0.0, squares = 0.0, count = 0.0;
         for (std::uint64_t seed = 1; seed <= 100; ++seed) {
@@ -114,6 +112,6 @@ TEST_CASE("the placement of a box is common to its sensors in the share that is 
     }
 }
 
-TEST_CASE("a box needs a seed and a share", "[sim][box]") {
+TEST_CASE("a box needs a seed and a share") {
     CHECK_THROWS_AS(changed("tsukuba", "[box]\nseed = 5\n"), InputError);
 }

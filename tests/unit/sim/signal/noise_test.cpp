@@ -42,7 +42,7 @@ double mean_power(const std::vector<double>& values, double low, double high, in
 
 }  // namespace
 
-TEST_CASE("flicker noise has the requested rms and falls by 3 dB per octave", "[sim][noise]") {
+TEST_CASE("flicker noise has the requested rms and falls by 3 dB per octave") {
     FlickerNoise noise(RandomStream(2, "flicker"), 1.5, 40.0, 4000.0, 1.0);
     std::vector<double> values(200'000);
     for (double& value : values) value = noise.next();
@@ -54,7 +54,7 @@ TEST_CASE("flicker noise has the requested rms and falls by 3 dB per octave", "[
     CHECK(slow / fast == Approx(8.0).epsilon(0.35));
 }
 
-TEST_CASE("resonant noise has the requested rms and its power around the centre", "[sim][noise]") {
+TEST_CASE("resonant noise has the requested rms and its power around the centre") {
     ResonantNoise noise(RandomStream(2, "resonant"), 1.4, 900.0, 2.0, 1.0);
     std::vector<double> values(400'000);
     for (double& value : values) value = noise.next();
@@ -70,7 +70,7 @@ TEST_CASE("resonant noise has the requested rms and its power around the centre"
     CHECK(centre / power_at(2.6) == Approx(4.0 * 34.9).epsilon(0.4));
 }
 
-TEST_CASE("a noise of zero rms is zero", "[sim][noise]") {
+TEST_CASE("a noise of zero rms is zero") {
     FlickerNoise flicker(RandomStream(2, "flicker"), 0.0, 40.0, 36000.0, 1.0);
     ResonantNoise resonant(RandomStream(2, "resonant"), 0.0, 900.0, 2.0, 1.0);
     for (int i = 0; i < 100; ++i) {
@@ -79,7 +79,7 @@ TEST_CASE("a noise of zero rms is zero", "[sim][noise]") {
     }
 }
 
-TEST_CASE("ground noise has the requested rms and hardly changes minute means", "[sim][noise]") {
+TEST_CASE("ground noise has the requested rms and hardly changes minute means") {
     BandNoise noise(20.0, 1.0, 20.0, 50.0);
     RandomStream stream(5, "ground");
     std::vector<double> values(300'000);
@@ -94,8 +94,7 @@ TEST_CASE("ground noise has the requested rms and hardly changes minute means", 
     CHECK(largest_mean < 0.1);  // White noise of 20 mGal would reach 1 mGal.
 }
 
-TEST_CASE("the same seed and name give the same draws, another seed or name gives others",
-          "[sim][random]") {
+TEST_CASE("the same seed and name give the same draws, another seed or name gives others") {
     RandomStream first(7, "ground"), again(7, "ground"), other_seed(8, "ground"),
         other_name(7, "white");
     int equal_to_other = 0;
@@ -108,8 +107,7 @@ TEST_CASE("the same seed and name give the same draws, another seed or name give
     CHECK(equal_to_other == 0);
 }
 
-TEST_CASE("the quantile inverts the normal distribution function in all its branches",
-          "[sim][random]") {
+TEST_CASE("the quantile inverts the normal distribution function in all its branches") {
     for (const double p :
          {1e-300, 1e-20, 1e-12, 1e-6, 0.01, 0.07, 0.3, 0.5, 0.92, 0.99, 0.999999}) {
         const double x = normal_quantile(p);
@@ -120,8 +118,7 @@ TEST_CASE("the quantile inverts the normal distribution function in all its bran
     }
 }
 
-TEST_CASE("normal draws have the moments of the normal distribution and no correlation",
-          "[sim][random]") {
+TEST_CASE("normal draws have the moments of the normal distribution and no correlation") {
     constexpr int kCount = 1'000'000;
     RandomStream stream(1, "moments");
     double sum = 0.0, square = 0.0, fourth = 0.0, product = 0.0, before = 0.0;
@@ -141,7 +138,7 @@ TEST_CASE("normal draws have the moments of the normal distribution and no corre
     CHECK(std::abs(product / kCount) < error);
 }
 
-TEST_CASE("exponential draws have the mean waiting time of a Poisson event", "[sim][random]") {
+TEST_CASE("exponential draws have the mean waiting time of a Poisson event") {
     constexpr int kCount = 100'000;
     RandomStream stream(3, "waits");
     double sum = 0.0;

@@ -46,14 +46,14 @@ void check_change_refused(const std::string& more, const std::vector<std::string
 
 }  // namespace
 
-TEST_CASE("every named scenario loads under its own name", "[sim][scenario]") {
+TEST_CASE("every named scenario loads under its own name") {
     CHECK(scenario_names().size() >= 11);
     for (const std::string_view name : scenario_names()) {
         CHECK(load_scenario(std::string(name)).name == name);
     }
 }
 
-TEST_CASE("a scenario overrides only those values of its base that it names", "[sim][scenario]") {
+TEST_CASE("a scenario overrides only those values of its base that it names") {
     const Scenario base = load_scenario("tsukuba");
     const Scenario tilted = load_scenario("tilted");
     CHECK(base.sensor.horizontal_bias_max_mgal == 0.0);
@@ -63,7 +63,7 @@ TEST_CASE("a scenario overrides only those values of its base that it names", "[
     CHECK(tilted.oven.heater_capacity_j_per_k == base.oven.heater_capacity_j_per_k);
 }
 
-TEST_CASE("unknown and missing keys and impossible values are refused by name", "[sim][scenario]") {
+TEST_CASE("unknown and missing keys and impossible values are refused by name") {
     const std::string good = tsukuba_toml();
     CHECK_NOTHROW(parse_scenario(good, "day.toml"));
     check_refused(with(good, "white_mgal = 2.5", "white_mgals = 2.5"),
@@ -77,7 +77,7 @@ TEST_CASE("unknown and missing keys and impossible values are refused by name", 
     CHECK_THROWS_AS(load_scenario("no-such-scenario"), InputError);
 }
 
-TEST_CASE("sites and occupations are those of the published tables", "[sim][scenario]") {
+TEST_CASE("sites and occupations are those of the published tables") {
     const Scenario scenario = load_scenario("tsukuba");
     const auto sites = text::read_sites(A351_GOLDEN "/tsukuba/sites.csv");
     REQUIRE(scenario.sites.size() == sites.size());
@@ -99,8 +99,7 @@ TEST_CASE("sites and occupations are those of the published tables", "[sim][scen
     }
 }
 
-TEST_CASE("the ambient temperature is linear between the occupations and constant outside",
-          "[sim][scenario]") {
+TEST_CASE("the ambient temperature is linear between the occupations and constant outside") {
     const Scenario scenario = load_scenario("tsukuba");
     const auto knots = scenario.ambient_knots();
     const auto& first = scenario.occupations[0];
@@ -112,7 +111,7 @@ TEST_CASE("the ambient temperature is linear between the occupations and constan
     CHECK(ambient_at(knots, scenario.end() + std::chrono::hours(5)).value() == Approx(29.2));
 }
 
-TEST_CASE("listed ambient temperatures replace those of the occupations", "[sim][scenario]") {
+TEST_CASE("listed ambient temperatures replace those of the occupations") {
     const Scenario scenario = changed(
         "tsukuba",
         "[[ambient]]\nat_h = 1.0\ndegc = 20.0\n"
@@ -126,8 +125,7 @@ TEST_CASE("listed ambient temperatures replace those of the occupations", "[sim]
     CHECK(after(9.0) == 30.0);
 }
 
-TEST_CASE("a record without occupations has its own limits, one site and no schedule",
-          "[sim][scenario]") {
+TEST_CASE("a record without occupations has its own limits, one site and no schedule") {
     const Scenario scenario = load_scenario("indoor");
     CHECK(scenario.start() == *parse_rfc3339("2017-06-01T09:00:00Z"));
     CHECK(seconds_between(scenario.start(), scenario.end()) == 12.0 * 3600.0);
@@ -147,7 +145,7 @@ TEST_CASE("a record without occupations has its own limits, one site and no sche
     CHECK(survey.ambient_knots().size() == 3);
 }
 
-TEST_CASE("a scenario that contradicts itself is refused in one line", "[sim][scenario]") {
+TEST_CASE("a scenario that contradicts itself is refused in one line") {
     const auto refused = [](const std::string& text, const std::string& part) {
         check_change_refused(text, {"x.toml", part});
     };
@@ -194,7 +192,7 @@ TEST_CASE("a scenario that contradicts itself is refused in one line", "[sim][sc
     CHECK_NOTHROW(changed("tsukuba", "[sensor]\npower_on_before_start_h = 2\n"));
 }
 
-TEST_CASE("air around the oven that is not below its set point is refused", "[sim][scenario]") {
+TEST_CASE("air around the oven that is not below its set point is refused") {
     const std::string warm = "[oven]\nset_point_degc = 55\n[[ambient]]\nat_h = 1\ndegc = ";
     CHECK_NOTHROW(changed("tsukuba", warm + "54.9\n"));
     check_change_refused(warm + "55\n", {"degc = 55"});
@@ -207,8 +205,7 @@ TEST_CASE("air around the oven that is not below its set point is refused", "[si
 }
 
 TEST_CASE(
-    "an oven with an unstable time step is refused with the bound, and is stable at the bound",
-    "[sim][scenario]") {
+    "an oven with an unstable time step is refused with the bound, and is stable at the bound") {
     check_change_refused("[oven]\nheater_capacity_j_per_k = 1\nheater_body_k_per_w = 0.01\n",
                          {"heater_capacity_j_per_k", "100.08"});
     check_change_refused("[oven]\nbody_capacity_j_per_k = 1\nbody_ambient_k_per_w = 0.5\n",
@@ -223,8 +220,7 @@ TEST_CASE(
     CHECK(plant.body().value() < 50.0);
 }
 
-TEST_CASE("stays that leave no time for their set-ups or for the next stay are refused",
-          "[sim][survey_plan]") {
+TEST_CASE("stays that leave no time for their set-ups or for the next stay are refused") {
     // 20 min less 2 min of jitter: 10 set-ups of 108 s, whatever shortest_s says.
     const std::string brief = "[schedule]\nshortest_s = 60\n";
     CHECK_NOTHROW(changed("tsukuba", brief + stay("No.1", "00:00:00",
@@ -251,8 +247,7 @@ TEST_CASE("stays that leave no time for their set-ups or for the next stay are r
     check_change_refused(crowd, {"No.1", "further apart"});
 }
 
-TEST_CASE("several set-ups share an occupation without a gap, each with its own draws",
-          "[sim][survey_plan]") {
+TEST_CASE("several set-ups share an occupation without a gap, each with its own draws") {
     const Scenario once = load_scenario("tsukuba");
     const Scenario twice = changed("tsukuba", "[schedule]\nsetups = 2\n");
     const auto whole = plan_survey(once, 5);
@@ -274,7 +269,7 @@ TEST_CASE("several set-ups share an occupation without a gap, each with its own 
     }
 }
 
-TEST_CASE("listed angles are used for the set-ups", "[sim][survey_plan]") {
+TEST_CASE("listed angles are used for the set-ups") {
     const auto plan = plan_survey(load_scenario("tilt-series"), 5);
     REQUIRE(plan.size() == 12);
     const double two_degrees_rad = 2.0 * 3.14159265358979 / 180.0;
@@ -284,8 +279,7 @@ TEST_CASE("listed angles are used for the set-ups", "[sim][survey_plan]") {
     CHECK(plan[6].number == 2);
 }
 
-TEST_CASE("a unit's parameters lie within the scatter and depend on the seed",
-          "[sim][survey_plan]") {
+TEST_CASE("a unit's parameters lie within the scatter and depend on the seed") {
     const Scenario scenario = changed("tsukuba", "[temperature_error]\nunit_scatter = 0.25\n");
     double low = 1.0, high = 1.0;
     for (std::uint64_t seed = 0; seed < 200; ++seed) {
@@ -306,8 +300,7 @@ TEST_CASE("a unit's parameters lie within the scatter and depend on the seed",
 }
 
 TEST_CASE(
-    "occupations keep order, length and distance for any seed, and if they are close together",
-    "[sim][survey_plan]") {
+    "occupations keep order, length and distance for any seed, and if they are close together") {
     const Scenario scenario = load_scenario("tsukuba");
     for (std::uint64_t seed = 0; seed < 200; ++seed) {
         const auto plan = plan_survey(scenario, seed);
@@ -329,7 +322,7 @@ TEST_CASE(
     CHECK(seconds_between(rush[1].start, rush[1].end) >= 540.0 - 0.002);
 }
 
-TEST_CASE("the plan's tables can be read back", "[sim][survey_plan]") {
+TEST_CASE("the plan's tables can be read back") {
     const Scenario scenario = load_scenario("tsukuba");
     const auto plan = plan_survey(scenario, 4);
     const auto truth = text::CsvTable::parse(truth_csv(scenario, plan, 4), "truth.csv");

@@ -63,7 +63,7 @@ double sum_of(const text::CsvTable& table, std::size_t row) {
 
 }  // namespace
 
-TEST_CASE("the terms of the truth add up to the mean norm of the samples", "[sim][truth]") {
+TEST_CASE("the terms of the truth add up to the mean norm of the samples") {
     // Everything at once: axis biases, two set-ups, traffic without pause, drift, an open lid; and all
     // this with each second set-up in the other face.
     const bool has_two_faces = GENERATE(false, true);
@@ -102,8 +102,7 @@ TEST_CASE("the terms of the truth add up to the mean norm of the samples", "[sim
     }
 }
 
-TEST_CASE("each term of the truth agrees with its effect on the norm of the samples",
-          "[sim][truth]") {
+TEST_CASE("each term of the truth agrees with its effect on the norm of the samples") {
     // An ideal day with one effect at a time: truth and norm must agree to 0.01 mGal.
     struct Case {
         const char* column;
@@ -147,7 +146,7 @@ TEST_CASE("each term of the truth agrees with its effect on the norm of the samp
     CHECK(table.number(0, "tide_mgal") < -0.1);
 }
 
-TEST_CASE("an ideal day reads gravity, tide and bias, and its truth has no error", "[sim][truth]") {
+TEST_CASE("an ideal day reads gravity, tide and bias, and its truth has no error") {
     const Scenario scenario = load_scenario("ideal");
     const auto plan = plan_survey(scenario, 3);
     const auto ambient = scenario.ambient_knots();
@@ -183,7 +182,7 @@ TEST_CASE("an ideal day reads gravity, tide and bias, and its truth has no error
     }
 }
 
-TEST_CASE("tilting by two degrees to each side shows the axis bias", "[sim][truth]") {
+TEST_CASE("tilting by two degrees to each side shows the axis bias") {
     const Scenario scenario = load_scenario("tilt-series");
     for (const std::uint64_t seed : {1U, 2U, 3U}) {
         const auto truth = set_up_truth(scenario, plan_survey(scenario, seed), seed);
@@ -200,8 +199,7 @@ TEST_CASE("tilting by two degrees to each side shows the axis bias", "[sim][trut
     }
 }
 
-TEST_CASE("bias and scale flicker by themselves, and together as much as the scenario says",
-          "[sim][truth]") {
+TEST_CASE("bias and scale flicker by themselves, and together as much as the scenario says") {
     const Scenario scenario = changed("ideal",
                                       "[schedule]\nfaces = \"+\"\n[sensor]\nscale_share = 0.4\n"
                                       "[slow_noise]\nflicker_mgal = 1.2\n");

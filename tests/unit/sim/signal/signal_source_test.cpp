@@ -30,7 +30,7 @@ double seconds_at(SensorClock clock, int n, DegC temperature) {
 
 }  // namespace
 
-TEST_CASE("the same seed gives the same samples, another seed others", "[sim][signal_source]") {
+TEST_CASE("the same seed gives the same samples, another seed others") {
     const Scenario scenario = load_scenario("tsukuba");
     signal::Source first(scenario, a351_profile(), 5), again(scenario, a351_profile(), 5),
         other(scenario, a351_profile(), 6);
@@ -43,7 +43,7 @@ TEST_CASE("the same seed gives the same samples, another seed others", "[sim][si
     CHECK(equal == 0);
 }
 
-TEST_CASE("samples lie on a grid of 20 ms from the scenario's start", "[sim][signal_source]") {
+TEST_CASE("samples lie on a grid of 20 ms from the scenario's start") {
     const Scenario scenario = load_scenario("tsukuba");
     signal::Source source(scenario, a351_profile(), 1);
     CHECK(source.next().instant == scenario.start());
@@ -51,8 +51,7 @@ TEST_CASE("samples lie on a grid of 20 ms from the scenario's start", "[sim][sig
     CHECK(static_cast<double>(source.sample_count()) / 50.0 / 3600.0 == Approx(13.2).margin(0.01));
 }
 
-TEST_CASE("a spike is on one axis, of either sign, and within the range of the scenario",
-          "[sim][signal_source]") {
+TEST_CASE("a spike is on one axis, of either sign, and within the range of the scenario") {
     const Scenario calm = load_scenario("ideal");
     const Scenario struck =
         changed("ideal", "[vibration]\nspike_probability = 1.0\nspike_gal = [0.1, 1.0]\n");
@@ -77,7 +76,7 @@ TEST_CASE("a spike is on one axis, of either sign, and within the range of the s
     }
 }
 
-TEST_CASE("counts are limited to the range of their type", "[sim][signal_source]") {
+TEST_CASE("counts are limited to the range of their type") {
     CHECK(to_counts(2.5) == 3);
     CHECK(to_counts(-2.5) == -2);
     CHECK(to_counts(1e12) == std::numeric_limits<std::int32_t>::max());
@@ -87,7 +86,7 @@ TEST_CASE("counts are limited to the range of their type", "[sim][signal_source]
     CHECK(to_counts(std::nan("")) == std::numeric_limits<std::int32_t>::min());
 }
 
-TEST_CASE("the bias of axis z stays on it when the box is turned", "[sim][signal_source]") {
+TEST_CASE("the bias of axis z stays on it when the box is turned") {
     const Scenario scenario =
         changed("ideal", "[schedule]\nlead_in_h = 0.1\njitter_s = 0\n[sensor]\nwhite_mgal = 0.0\n" +
                              stay("No.1", "00:00:00", "about_y_deg = [30]\nabout_x_deg = [0]\n"));
@@ -103,8 +102,7 @@ TEST_CASE("the bias of axis z stays on it when the box is turned", "[sim][signal
           Approx(std::sqrt(0.75) * gravity_mgal + scenario.sensor.bias_mgal).margin(0.33));
 }
 
-TEST_CASE("the clock counts true seconds except for its error, which may depend on temperature",
-          "[sim][sensor_clock]") {
+TEST_CASE("the clock counts true seconds except for its error, which may depend on temperature") {
     SensorClock clock({}, kReference, kClockStart, 1);
     for (int i = 0; i < 100'000; ++i) clock.begin_second(DegC(30.0));
     CHECK(clock.at(0.0) == kClockStart + std::chrono::seconds(99'999));
@@ -120,7 +118,7 @@ TEST_CASE("the clock counts true seconds except for its error, which may depend 
     CHECK(seconds_at(rated, 10'000, DegC(43.0)) == Approx(10'000.0 / (1.0 - 1e-6)).epsilon(1e-12));
 }
 
-TEST_CASE("the clock rate wanders with the square root of time", "[sim][sensor_clock]") {
+TEST_CASE("the clock rate wanders with the square root of time") {
     ClockParameters parameters;
     parameters.wander_ppm_per_sqrt_h = 3.0;
     constexpr int kSeeds = 300;
@@ -135,8 +133,7 @@ TEST_CASE("the clock rate wanders with the square root of time", "[sim][sensor_c
     CHECK(square == Approx(expected_s2).epsilon(0.25));
 }
 
-TEST_CASE("the clock changes the times of the samples and not their values",
-          "[sim][sensor_clock]") {
+TEST_CASE("the clock changes the times of the samples and not their values") {
     const Scenario truth = load_scenario("tsukuba");
     const Scenario fast = changed("tsukuba",
                                   "[clock]\nerror_ppm = 50\nwander_ppm_per_sqrt_h = 0.1\n"
@@ -155,8 +152,7 @@ TEST_CASE("the clock changes the times of the samples and not their values",
 }
 
 TEST_CASE(
-    "the tide agrees with a worked example of Longman's formulas, in proportion to the factor",
-    "[sim][tide]") {
+    "the tide agrees with a worked example of Longman's formulas, in proportion to the factor") {
     // Computed without this code: 40.7914 N, 282.1414 E, 370 m, 2015-04-23 00:00 UT, factor
     // 1.1575: 0.00354 mGal upward.
     const UtcTime time = *parse_rfc3339("2015-04-23T00:00:00Z");
@@ -167,7 +163,7 @@ TEST_CASE(
     CHECK(tide(1.1575) == Approx(1.1575 * tide(1.0)).epsilon(1e-14));
 }
 
-TEST_CASE("the tide of the survey day agrees with the publication's column", "[sim][tide]") {
+TEST_CASE("the tide of the survey day agrees with the publication's column") {
     // The column is 1.20 times the rigid Earth's tide (tests/golden/tsukuba/README.md), rounded to
     // 0.001 mGal; Longman's formulas are good to 0.003 mGal.
     const text::CsvTable sites = text::read_csv(A351_GOLDEN "/tsukuba/sites.csv");

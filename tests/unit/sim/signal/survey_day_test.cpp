@@ -41,7 +41,7 @@ double gain(double period_s) {
 
 }  // namespace
 
-TEST_CASE("the simulated day has the published temperatures", "[sim][survey_day]") {
+TEST_CASE("the simulated day has the published temperatures") {
     const Scenario scenario = load_scenario("tsukuba");
     const text::CsvTable rows = text::read_csv(A351_GOLDEN "/tsukuba/observations.csv");
     constexpr int kSeeds = 10;
@@ -58,19 +58,16 @@ TEST_CASE("the simulated day has the published temperatures", "[sim][survey_day]
     }
 }
 
-TEST_CASE("the simulated day has the published day's regression line, scatter and misfits",
-          "[sim][survey_day]") {
+TEST_CASE("the simulated day has the published day's regression line, scatter and misfits") {
     check(survey_day_figures(20));
 }
 
-TEST_CASE("the simulated night has the published night's cycle, slopes and delays",
-          "[sim][survey_day]") {
+TEST_CASE("the simulated night has the published night's cycle, slopes and delays") {
     check(indoor_figures(10));
 }
 
 TEST_CASE(
-    "the band pass of the statistics has gain 1 inside and 1/2 at its corners, and shifts no phase",
-    "[sim][survey_day]") {
+    "the band pass of the statistics has gain 1 inside and 1/2 at its corners, and shifts no phase") {
     CHECK(gain(600.0) == Approx(0.5).margin(0.005));
     CHECK(gain(1500.0) == Approx(0.5).margin(0.005));
     CHECK(gain(std::sqrt(600.0 * 1500.0)) == Approx(1.0).margin(0.005));

@@ -89,8 +89,7 @@ const ThermalPlant& outer_of(Ovens& ovens) {
 
 }  // namespace
 
-TEST_CASE("heat flows balance in equilibrium if the controller has a fine resolution",
-          "[sim][thermal_plant]") {
+TEST_CASE("heat flows balance in equilibrium if the controller has a fine resolution") {
     OvenParameters oven = load_scenario("tsukuba").oven;
     oven.resolution_degc = 1e-6;
     ThermalPlant plant(oven, DegC(26.0));
@@ -100,14 +99,13 @@ TEST_CASE("heat flows balance in equilibrium if the controller has a fine resolu
     CHECK(plant.heater().value() == Approx(oven.set_point_degc).margin(1e-5));
 }
 
-TEST_CASE("the body follows ambient by the ratio of the resistances", "[sim][thermal_plant]") {
+TEST_CASE("the body follows ambient by the ratio of the resistances") {
     // Rhb / (Rhb + Rba) = 5 / 83 = 0.060 degC per degC.
     const double rise_degc = mean(limit_cycle_degc(34.0)) - mean(limit_cycle_degc(24.0));
     CHECK(rise_degc / 10.0 == Approx(5.0 / 83.0).margin(0.002));
 }
 
-TEST_CASE("a coarse resolution makes a limit cycle of 700 to 1050 s and 0.010 to 0.025 degC",
-          "[sim][thermal_plant]") {
+TEST_CASE("a coarse resolution makes a limit cycle of 700 to 1050 s and 0.010 to 0.025 degC") {
     // Published (Matsuda et al.): 10-15 min and about 0.02 degC peak to peak.
     for (const double ambient_degc : {24.0, 29.0, 34.0}) {
         const Cycle cycle = cycle_of(limit_cycle_degc(ambient_degc));
@@ -119,7 +117,7 @@ TEST_CASE("a coarse resolution makes a limit cycle of 700 to 1050 s and 0.010 to
     }
 }
 
-TEST_CASE("without an outer oven the pair is the single plant", "[sim][thermal_plant]") {
+TEST_CASE("without an outer oven the pair is the single plant") {
     OvenParameters oven = load_scenario("tsukuba").oven;
     oven.run_in_h = 0.0;
     ThermalPlant plant(oven, DegC(26.0));
@@ -132,8 +130,7 @@ TEST_CASE("without an outer oven the pair is the single plant", "[sim][thermal_p
     }
 }
 
-TEST_CASE("an outer oven has its own cycle, shields the inner one, and is warmed by it",
-          "[sim][thermal_plant]") {
+TEST_CASE("an outer oven has its own cycle, shields the inner one, and is warmed by it") {
     const Scenario scenario = load_scenario("double-oven");
     const OvenParameters outer = scenario.outer_oven->oven;
     std::vector<double> bodies_degc;
@@ -171,7 +168,7 @@ TEST_CASE("an outer oven has its own cycle, shields the inner one, and is warmed
     CHECK(mean(full_degc) - mean(empty_degc) > 0.2);
 }
 
-TEST_CASE("an on/off controller cycles faster and with a larger swing", "[sim][thermal_plant]") {
+TEST_CASE("an on/off controller cycles faster and with a larger swing") {
     // Not published: periods and swings are from a script that integrates the same equations
     // independently of this code.  Half the dead time would give 240-360 s and 0.055 degC.
     struct Row {
@@ -186,7 +183,7 @@ TEST_CASE("an on/off controller cycles faster and with a larger swing", "[sim][t
     }
 }
 
-TEST_CASE("the scenario selects the kind of controller", "[sim][thermal_plant]") {
+TEST_CASE("the scenario selects the kind of controller") {
     const auto kind_of = [](const std::string& line) {
         return changed("tsukuba", "[oven]\n" + line).oven.controller;
     };
@@ -195,15 +192,14 @@ TEST_CASE("the scenario selects the kind of controller", "[sim][thermal_plant]")
     CHECK_THROWS_AS(kind_of("controller = \"fuzzy\"\n"), InputError);
 }
 
-TEST_CASE("the oven follows its set point", "[sim][oven_plant]") {
+TEST_CASE("the oven follows its set point") {
     ThermalPlant plant(load_scenario("tsukuba").oven, DegC(26.0));
     plant.set_set_point(DegC(44.0));
     for (int i = 0; i < 3 * 3600; ++i) plant.step(DegC(26.0));
     CHECK(plant.controller_reading().value() == Approx(44.0).margin(0.11));
 }
 
-TEST_CASE("an oven that is stopped or without its sensor cools, and recovers afterwards",
-          "[sim][oven_plant]") {
+TEST_CASE("an oven that is stopped or without its sensor cools, and recovers afterwards") {
     const bool is_stop = GENERATE(true, false);
     CAPTURE(is_stop);
     ThermalPlant plant(load_scenario("tsukuba").oven, DegC(26.0));
@@ -222,8 +218,7 @@ TEST_CASE("an oven that is stopped or without its sensor cools, and recovers aft
     CHECK(plant.controller_reading().value() == Approx(42.5).margin(0.11));
 }
 
-TEST_CASE("proportional band and integral time give the gains of the scenario",
-          "[sim][oven_plant]") {
+TEST_CASE("proportional band and integral time give the gains of the scenario") {
     ThermalPlant plant(load_scenario("tsukuba").oven, DegC(26.0));
     CHECK(plant.tuning().proportional_band_degc == Approx(5.0));
     CHECK(plant.tuning().integral_time_s == Approx(0.2 / 0.0015));
@@ -236,8 +231,7 @@ TEST_CASE("proportional band and integral time give the gains of the scenario",
     }
 }
 
-TEST_CASE("writing a set point changes the samples from then on, and reading it changes none",
-          "[sim][oven_plant]") {
+TEST_CASE("writing a set point changes the samples from then on, and reading it changes none") {
     const Scenario scenario = load_scenario("tsukuba");
     const wire::DeviceProfile& profile = *wire::find_profile("A351");
     signal::Source untouched(scenario, profile, 1), looked_at(scenario, profile, 1),
@@ -256,8 +250,7 @@ TEST_CASE("writing a set point changes the samples from then on, and reading it 
     CHECK(has_changed);
 }
 
-TEST_CASE("the temperature error has the gain and phase of its transfer function",
-          "[sim][temperature_error]") {
+TEST_CASE("the temperature error has the gain and phase of its transfer function") {
     // H(s) = rA - kA s tauA / (1 + s tauA) + rC / (1 + s tauC), computed without this code.
     struct Row {
         double period_s, gain, phase_deg;
@@ -272,8 +265,7 @@ TEST_CASE("the temperature error has the gain and phase of its transfer function
     }
 }
 
-TEST_CASE("a constant temperature difference gives the static slope, and the warm-up error decays",
-          "[sim][temperature_error]") {
+TEST_CASE("a constant temperature difference gives the static slope, and the warm-up error decays") {
     const TemperatureErrorParameters parameters = load_scenario("tsukuba").error;
     TemperatureError cold(parameters, DegC(42.5), 1.0);
     TemperatureError warm(parameters, DegC(43.5), 1.0);

@@ -60,7 +60,7 @@ Scenario brief_day(const std::string& name = "brief", const std::string& more = 
 
 }  // namespace
 
-TEST_CASE("a day written to a data root reads back as the truth", "[sim][direct_survey]") {
+TEST_CASE("a day written to a data root reads back as the truth") {
     const Scenario scenario =
         changed("tsukuba", "[schedule]\nlead_in_h = 0.2\nlead_out_min = 10\nsetups = 2\n" +
                                stay("No.0", "23:55:00"));
@@ -98,8 +98,7 @@ TEST_CASE("a day written to a data root reads back as the truth", "[sim][direct_
     CHECK_FALSE(std::filesystem::exists(written.file("partial")));
 }
 
-TEST_CASE("a day is not written to a directory that has any part of another",
-          "[sim][direct_survey]") {
+TEST_CASE("a day is not written to a directory that has any part of another") {
     const test::TemporaryDirectory directory;
     for (const char* name : {"journal", "archive", "events", "metadata", "truth.bin", "sites.csv",
                              "schedule.csv", "truth.csv", "survey.toml", "partial"}) {
@@ -117,7 +116,7 @@ TEST_CASE("a day is not written to a directory that has any part of another",
     CHECK(std::filesystem::exists(directory.path() / "survey.toml"));
 }
 
-TEST_CASE("a day that cannot be written completely leaves no files", "[sim][direct_survey]") {
+TEST_CASE("a day that cannot be written completely leaves no files") {
     const test::TemporaryDirectory directory;
     rlimit limit{};
     REQUIRE(::getrlimit(RLIMIT_FSIZE, &limit) == 0);
@@ -137,8 +136,7 @@ TEST_CASE("a day that cannot be written completely leaves no files", "[sim][dire
     CHECK(std::filesystem::is_empty(directory.path()));
 }
 
-TEST_CASE("a day has the filter of the profile by its code, and is refused without it",
-          "[sim][direct_survey]") {
+TEST_CASE("a day has the filter of the profile by its code, and is refused without it") {
     const test::TemporaryDirectory directory;
     const auto shipped =
         std::ranges::find(wire::shipped_profiles(), "A351", &wire::ShippedProfile::name);
@@ -159,8 +157,7 @@ TEST_CASE("a day has the filter of the profile by its code, and is refused witho
     CHECK_THROWS_AS(written("\"of_mine\", code = 15"), InputError);
 }
 
-TEST_CASE("the session id of a day depends on its scenario, start, profile and seed",
-          "[sim][direct_survey]") {
+TEST_CASE("the session id of a day depends on its scenario, start, profile and seed") {
     const std::array headers{Written(brief_day()).header(), Written(brief_day("another")).header(),
                              Written(brief_day("brief", "", "2017-07-17")).header(),
                              Written(brief_day(), "A352AD10").header(),
@@ -175,8 +172,7 @@ TEST_CASE("the session id of a day depends on its scenario, start, profile and s
     CHECK(Written(brief_day()).header().session == headers.front().session);
 }
 
-TEST_CASE("events and tables are in true time, even if the clock of the sensor is wrong",
-          "[sim][direct_survey]") {
+TEST_CASE("events and tables are in true time, even if the clock of the sensor is wrong") {
     const Scenario scenario = brief_day("brief", "[clock]\nerror_ppm = 100\n");
     const Written written(scenario);
     const auto truth = read_truth(written.file("truth.bin"));
@@ -203,8 +199,7 @@ TEST_CASE("events and tables are in true time, even if the clock of the sensor i
     CHECK(1e-4 * seconds_between(scenario.start(), scenario.end()) > 0.1);
 }
 
-TEST_CASE("a day with two ovens has the channels of both, and a term of its truth",
-          "[sim][direct_survey]") {
+TEST_CASE("a day with two ovens has the channels of both, and a term of its truth") {
     const std::string outer =
         "[outer_oven]\nheater_capacity_j_per_k = 1500\nbody_capacity_j_per_k = 400\n"
         "heater_body_k_per_w = 1\nheater_ambient_k_per_w = 3\nbody_ambient_k_per_w = 20\n"
@@ -233,7 +228,7 @@ TEST_CASE("a day with two ovens has the channels of both, and a term of its trut
     CHECK(text::read_csv(written.file("truth.csv")).has_column("outer_oven_mgal"));
 }
 
-TEST_CASE("a record at one point has an archive, one site and no survey", "[sim][direct_survey]") {
+TEST_CASE("a record at one point has an archive, one site and no survey") {
     const Scenario scenario =
         changed("indoor", "[schedule]\nduration_h = 0.1\n[clock]\nerror_ppm = 100\n");
     const Written written(scenario);
@@ -255,7 +250,7 @@ TEST_CASE("a record at one point has an archive, one site and no survey", "[sim]
                                    channel.segments[0].time_of(truth.size() - 1))) < 1e-3);
 }
 
-TEST_CASE("a step and gross placements are planned as the scenario asks", "[sim][plan]") {
+TEST_CASE("a step and gross placements are planned as the scenario asks") {
     const Scenario tsukuba =
         changed("tsukuba",
                 "[slow_noise]\ntransport_step_mgal = 8\n"
