@@ -255,8 +255,8 @@ TEST_CASE_METHOD(Rig,
     feed(25);  // Times are fixed for a second of data, half of it after a reading.
     timing::ClockReading reading = clock.read();
     reading.is_synchronised = true;
-    const auto record = [&](int seconds) {
-        for (int i = 0; i < seconds; ++i) {
+    const auto record = [&](int count_s) {
+        for (int i = 0; i < count_s; ++i) {
             reading.raw += kSecond;
             reading.boottime += kSecond;
             reading.realtime += kSecond;
