@@ -174,17 +174,20 @@ std::vector<text::Message> position_warnings(const std::vector<SurveyRow>& rows,
 }
 
 std::vector<text::Message> time_warnings(const std::vector<SurveyRow>& rows) {
-    constexpr std::chrono::days kFar(30);
+    using Day = std::chrono::sys_days;  // A difference of days holds any two times.
+    constexpr std::chrono::days kFar(20);
+    const auto day = [&rows](std::size_t i) -> Day {
+        return std::chrono::floor<std::chrono::days>(rows[i].time);
+    };
     std::vector<text::Message> warnings;
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        Nanoseconds least = Nanoseconds::max();
-        if (i > 0) least = rows[i].time - rows[i - 1].time;
-        if (i + 1 < rows.size()) least = std::min(least, rows[i + 1].time - rows[i].time);
+        std::chrono::days least = std::chrono::days::max();
+        if (i > 0) least = day(i) - day(i - 1);
+        if (i + 1 < rows.size()) least = std::min(least, day(i + 1) - day(i));
         if (least > kFar)
             warnings.push_back(text::message(
-                "{} ({}): {} is more than {} days from every other reading: check its year and month",
-                rows[i].site, rows[i].occupation, to_rfc3339(rows[i].time),
-                std::chrono::floor<std::chrono::days>(least).count()));
+                "{} ({}): {} is {} days from every other reading: check its year and month",
+                rows[i].site, rows[i].occupation, to_rfc3339(rows[i].time), least.count()));
     }
     if (4 * warnings.size() > rows.size()) warnings.clear();
     return warnings;

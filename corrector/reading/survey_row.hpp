@@ -172,8 +172,9 @@ void set_backward_rates(std::vector<SurveyRow>& rows);
 [[nodiscard]] std::vector<text::Message> position_warnings(const std::vector<SurveyRow>& rows,
                                                            const std::vector<text::Site>& sites);
 
-/// Returns a warning for every row that is more than 30 days from all others: a mistyped year or month
-/// makes it so.  Empty if more than a quarter of the rows are: then it is a series of single readings.
+/// Returns a warning for every row that is more than 20 days from all others: a year or month that was
+/// mistyped for one reading makes it so.  Empty if more than a quarter of the rows are: then it is a
+/// series of single readings.
 /// @param rows  in order of time.
 [[nodiscard]] std::vector<text::Message> time_warnings(const std::vector<SurveyRow>& rows);
 

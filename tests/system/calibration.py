@@ -1,29 +1,17 @@
-"""Axis biases, scale and placement of a unit, measured on simulated series and used on a survey day of the same unit.
-
-tests/unit/series and calibration_use_test.cpp have what is refused and what is contradicted.
-"""
+"""Axis biases, scale and placement of a unit, measured on simulated series and used on a survey day of the same unit."""
 
 import math
 import re
+import shutil
 import tomllib
 
 from programs import BIN, TOP, Scratch, demand, read_json, rows, run
 
 SEED = 4
-TERMS = ("tide", "bias", "static", "dynamic", "clock", "warm_up", "placement", "flicker", "resonant", "white", "drift",
-         "ripple", "scale", "tilt")
 
 
 def correct(*arguments, check=True, cwd=None):
     return run(BIN / "a351-correct", *arguments, check=check, cwd=cwd)
-
-
-def refused(scratch, words, *arguments):
-    """Demands that arguments that end in --out FILE are refused in one line with these words; nothing is written."""
-    result = correct(*arguments, check=False, cwd=scratch)
-    demand(f"refused: {result.stderr.strip()}", result.returncode == 2 and words in result.stderr
-           and result.stderr.count("\n") == 1
-           and not (scratch / arguments[-1]).exists())
 
 
 def true_biases(series):
@@ -42,7 +30,8 @@ def true_biases(series):
 
 def true_tumble(series):
     """Returns the biases of x, y and z in mGal: half the difference of the norms up and down in truth.csv."""
-    norms = {(float(row["about_y_deg"]), float(row["about_x_deg"])): sum(float(row[f"{term}_mgal"]) for term in TERMS)
+    terms = ("tide", "bias", "static", "dynamic", "clock", "warm_up", "placement", "flicker", "resonant", "white", "drift", "ripple", "scale", "tilt")
+    norms = {(float(row["about_y_deg"]), float(row["about_x_deg"])): sum(float(row[f"{term}_mgal"]) for term in terms)
              for row in rows(series / "truth.csv")}
     return [(norms[up] - norms[down]) / 2.0 for up, down in
             (((90.0, 0.0), (-90.0, 0.0)), ((0.0, -90.0), (0.0, 90.0)), ((0.0, 0.0), (0.0, 180.0)))]
@@ -55,75 +44,133 @@ def keys(value):
     return value.keys() | set().union(*map(keys, value.values())) if isinstance(value, dict) else set()
 
 
-def demand_described(unit):
-    page = (TOP / "protocol" / "unit" / "calibration-format.md").read_text()
-    lacking = sorted(key for key in keys(unit) if not re.search(rf"`\[*{re.escape(key)}\]*`", page))
-    demand(f"of {len(keys(unit))} keys the format page lacks {lacking or 'none'}", not lacking)
-
-
 with Scratch() as scratch:
-    for scenario in ("tilt-series", "placement", "tilted", "tumble"):
+    for scenario in ("tilt-series", "placement", "tilted"):
         run(BIN / "a351-sim", "survey", "--scenario", scenario, "--seed", SEED, "--out", scratch / scenario)
-
-    def calibrated(name, *arguments):
-        correct("calibrate", *arguments, "--out", name, cwd=scratch)
-        return tomllib.loads((scratch / name).read_text())
-
-    unit = calibrated("c.toml", "--tilt", "tilt-series")
+    print(correct("calibrate", "--tilt", "tilt-series", "--out", "c.toml", cwd=scratch).stdout)
+    text = (scratch / "c.toml").read_text()
+    unit = tomllib.loads(text)
+    page = (TOP / "protocol" / "unit" / "calibration-format.md").read_text()
+    lacking = sorted(key for key in keys(unit) if f"`{key}`" not in page and f"`[{key}]`" not in page and f"`[[{key}]]`" not in page)
+    demand(f"the file is TOML; of {len(keys(unit))} keys the format page lacks {lacking or 'none'}", not lacking)
     values, covariance = unit["axis_bias"]["values"], unit["axis_bias"]["covariance"]
     for k, (axis, truth) in enumerate(zip("xy", true_biases(scratch / "tilt-series"))):
         error = math.sqrt(covariance[3 * k])
-        demand(f"the bias of {axis} is {values[k]:.1f} +- {error:.1f} mGal/g, true {truth:.1f} within three errors",
-               abs(values[k] - truth) < 3.0 * error < 120.0)
-    text = (scratch / "c.toml").read_text()
+        print(f"{axis}: {values[k]:.1f} +- {error:.1f} mGal/g, true {truth:.1f}")
+        demand(f"the bias of {axis} is within three standard errors of the truth", abs(values[k] - truth) < 3.0 * error)
+        demand(f"the standard error of the bias of {axis} is {error:.1f} mGal/g, below 40", error < 40.0)
+    correct("calibrate", "--tilt", "tilt-series", "--out", "again.toml", cwd=scratch)
+    demand("a second run gives the same bytes", (scratch / "again.toml").read_text() == text)
+
     (scratch / "ended.toml").write_text(text.replace("[axis_bias]", 'valid_to_utc = "2017-01-01T00:00:00Z"\n\n[axis_bias]', 1)
                                         .replace('valid_from_utc = "2017', 'valid_from_utc = "2016'))
-    refused(scratch, "ended.toml: valid_to_utc", "calibrate", "--tilt", "tilt-series", "--merge", "ended.toml", "--out",
-            "no.toml")
-    refused(scratch, "each reading once", "calibrate", "--tilt", "tilt-series", "tilt-series", "--out", "no.toml")
-    refused(scratch, "one point", "calibrate", "--tilt", "tilted/survey.toml", "--out", "no.toml")
-    refused(scratch, "--out = c.toml/c.toml", "calibrate", "--tilt", "tilt-series", "--out", "c.toml/c.toml")
+    merge = ("calibrate", "--tilt", "tilt-series", "--merge", "ended.toml", "--out")
+    refused = correct(*merge, "merged.toml", check=False, cwd=scratch)
+    print(refused.stderr.strip())
+    demand("a validity that ended before the tilt series is refused",
+           refused.returncode == 2 and "ended.toml: valid_to_utc" in refused.stderr and not (scratch / "merged.toml").exists())
+    correct(*merge, "merged.toml", "--valid-to", "2030-01-01T00:00:00Z", cwd=scratch)
 
-    both = calibrated("both.toml", "--placement", "placement", "--merge", "c.toml")
-    demand_described(both)
-    low, high = both["placement"]["limits_mgal"]
-    demand(f"the true placement, 1.2 mGal, is within {low:.2f} to {high:.2f}, which are at most a factor of 4 apart",
-           low < 1.2 < high < 4.0 * low)
-    demand("the biases are merged", both["axis_bias"]["values"] == values)
-    survey = ("survey", "tilted/survey.toml", "--calibration", "both.toml", "--out", "result")
-    correct(*survey, cwd=scratch)
+    merged = (scratch / "merged.toml").read_text()
+    demand("a data file that both calibrations used is listed once", merged.count("[[data]]") == text.count("[[data]]") > 4)
+    shutil.copytree(scratch / "tilt-series", scratch / "copy")
+    for again in ("tilt-series", "copy"):
+        refused = correct("calibrate", "--tilt", "tilt-series", again, "--out", "twice.toml", check=False, cwd=scratch)
+        print(refused.stderr.strip())
+        demand(f"the tilt series given again as {again} is refused as the same series",
+               refused.returncode == 2 and "each reading once" in refused.stderr and
+               not (scratch / "twice.toml").exists())
+
+    for bad in (("calibrate", "--tilt", "tilt-series", "--out", "tilt-series/"),
+                ("calibrate", "--tilt", "tilt-series", "--out", "c.toml/c.toml"),
+                ("record", "tilt-series", "--out", "c.toml")):
+        refused = correct(*bad, check=False, cwd=scratch)
+        print(refused.stderr.strip())
+        demand(f"{bad[0]} refuses the output {bad[-1]} before it starts computing",
+               refused.returncode == 2 and f"--out = {bad[-1]}" in refused.stderr)
+
+    survey = ("survey", "tilted/survey.toml", "--out", "result", "--calibration")
+    correct(*survey, "c.toml", cwd=scratch)
     result = read_json(scratch / "result" / "result.json")
-    used = result["calibration"]
-    demand("the result names the calibration", result["settings"]["calibration"] == "both.toml"
-           and used["serial_number"] == "00000001"
-           and any(file["role"] == "calibration" for file in result["inputs"]))
-    demand("biases and placement were used as priors and the readings do not contradict them",
-           used["placement"]["use"] == "prior"
-           and used["axis_bias"]["use"] == "prior" and not used["axis_bias"]["contradicted"]
-           and used["thermal"] is None)
+    demand("the result names the calibration", result["settings"]["calibration"] == "c.toml" and
+           result["calibration"]["serial_number"] == "00000001" and
+           any(file["role"] == "calibration" for file in result["inputs"]))
+    demand("the biases were used as a prior and the readings do not contradict them",
+           result["calibration"]["axis_bias"]["use"] == "prior" and
+           not result["calibration"]["axis_bias"]["contradicted"] and result["calibration"]["thermal"] is None)
     report = (scratch / "result" / "report.html").read_text()
-    demand("the report names the calibration and no contradiction", "calibration of unit 00000001" in report
-           and "contradict" not in report)
-    (scratch / "other.toml").write_text(text.replace("00000001", "00000002"))
-    refused(scratch, "unit 00000002", "survey", "tilted/survey.toml", "--calibration", "other.toml", "--out", "other")
+    demand("the report names the calibration", "calibration of unit 00000001" in report)
+    demand("the report mentions no contradiction", "contradict" not in report)
+    warnings = " ".join(result["settings"]["warnings"])
+    demand("a day after the start of the validity gives no warning", "validity of the calibration" not in warnings)
 
+    (scratch / "turned.toml").write_text(text.replace("values = [", "values = [-").replace("[--", "["))
+    correct(*survey, "turned.toml", cwd=scratch)
+    demand("biases with the wrong sign are reported as contradicted",
+           "s axis biases: chi-square" in (scratch / "result" / "report.html").read_text())
+    (scratch / "late.toml").write_text(text.replace("valid_from_utc = \"2017", "valid_from_utc = \"2018"))
+    demand("a day before the validity gives a warning",
+           "validity of the calibration" in correct(*survey, "late.toml", cwd=scratch).stderr)
+
+    print(correct("calibrate", "--placement", "placement", "--merge", "c.toml", "--out", "both.toml", cwd=scratch).stdout)
+    both = tomllib.loads((scratch / "both.toml").read_text())
+    placement = both["placement"]
+    lacking = sorted(key for key in keys(placement) if f"`{key}`" not in page)
+    demand(f"the format page names all keys of the placement but {lacking or 'none'}", not lacking)
+    low, high = placement["limits_mgal"]
+    print(f"placement {placement['standard_deviation_mgal']:.2f} mGal, 95 % limits {low:.2f} to {high:.2f}, true 1.2")
+    demand("the true placement is within the limits, which are at most a factor of 4 apart", low < 1.2 < high < 4.0 * low)
+    demand("the biases are merged", both["axis_bias"]["values"] == unit["axis_bias"]["values"])
+    correct(*survey, "both.toml", cwd=scratch)
+    demand("the placement is a prior of the survey",
+           read_json(scratch / "result" / "result.json")["calibration"]["placement"]["use"] == "prior")
+    refused = correct("calibrate", "--placement", "tilted/survey.toml", "--out", "no.toml", check=False, cwd=scratch)
+    print(refused.stderr.strip())
+    demand("a survey day given as repeated set-ups is refused", refused.returncode == 2 and "one point" in refused.stderr and
+           not (scratch / "no.toml").exists())
+
+    run(BIN / "a351-sim", "survey", "--scenario", "tumble", "--seed", SEED, "--out", scratch / "tumble")
     print(found := correct("calibrate", "--tumble", "tumble", "--out", "tumble.toml", cwd=scratch).stdout)
     for axis, truth in zip("xyz", true_tumble(scratch / "tumble")):
         value, error = map(float, re.search(rf"^  {axis}: .*; bias (\S+) \+- (\S+) mGal,", found, re.M).groups())
-        demand(f"the bias of {axis} is {value} +- {error} mGal, within three standard errors of the true {truth:.1f}",
-               abs(value - truth) < 3.0 * error < 20.0)
-    tumble = tomllib.loads((scratch / "tumble.toml").read_text())
-    demand_described(tumble)
-    scale, better = tumble["scale"], tumble["axis_bias"]
+        demand(f"the bias of {axis} is {value} +- {error} mGal, within three standard errors of the true {truth:.1f}", abs(value - truth) < 3.0 * error < 20.0)
+    scale = tomllib.loads((scratch / "tumble.toml").read_text())["scale"]
     demand(f"the scale is {scale['value']:.7f} +- {scale['standard_error']:.7f}, true 1",
            abs(scale["value"] - 1.0) < 3.0 * scale["standard_error"] < 3e-5)
+    correct("calibrate", "--placement", "placement", "--merge", "tumble.toml", "--out", "with-scale.toml", cwd=scratch)
+    demand("the scale is merged", tomllib.loads((scratch / "with-scale.toml").read_text())["scale"] == scale)
+    better = tomllib.loads((scratch / "tumble.toml").read_text())["axis_bias"]
     demand("the biases of the tumble are more certain than those of the tilt series",
            better["covariance"][0] + better["covariance"][3] < covariance[0] + covariance[3])
-    best = calibrated("best.toml", "--tilt", "tilt-series", "--tumble", "tumble", "--merge", "both.toml")
-    demand("with all series the scale is merged and the biases are those of the tumble", best["scale"] == scale
-           and best["axis_bias"] == better)
+    for way in (("--tilt", "tilt-series", "--tumble", "tumble"), ("--tumble", "tumble", "--merge", "c.toml"),
+                ("--tilt", "tilt-series", "--merge", "tumble.toml")):
+        said = correct("calibrate", *way, "--out", "best.toml", cwd=scratch)
+        demand(f"with {' '.join(way)} they are written, and the program says so",
+               tomllib.loads((scratch / "best.toml").read_text())["axis_bias"] == better and
+               "horizontal axes, written from tumble" in said.stdout)
+    shutil.copytree(scratch / "tumble", scratch / "rough")
+    sites = rows(scratch / "rough" / "sites.csv")
+    names = [name for name in sites[0] if name != "u_gravity_mgal"]
+    (scratch / "rough" / "sites.csv").write_text("".join(",".join(line) + "\n" for line in [names, *([site[name] for name in names] for site in sites)]))
+    said = correct("calibrate", "--tumble", "rough", "--out", "rough.toml", cwd=scratch)
+    print(said.stderr.strip())
+    demand("a gravity without uncertainty gives a warning of one line", said.stderr.count("\n") == 1 and "lacks that of gravity" in said.stderr)
     table = (scratch / "tumble" / "sites.csv").read_text()
     (scratch / "tumble" / "sites.csv").write_text(table.replace("979763", "983200"))
     said = correct("calibrate", "--tumble", "tumble", "--out", "wrong.toml", cwd=scratch)
-    demand(f"a gravity that does not fit its place gives a warning: {said.stderr.strip()}",
-           "normal gravity" in said.stderr and "979763" in table)
+    print(said.stderr.strip())
+    demand("a gravity that does not fit its place gives a warning", "normal gravity" in said.stderr and "979763" in table)
+    refused = correct("calibrate", "--tumble", "tilt-series", "--out", "no.toml", check=False, cwd=scratch)
+    print(refused.stderr.strip())
+    demand("a series without upturned positions is refused", refused.returncode == 2 and "no position with x up" in refused.stderr)
+
+    (scratch / "other.toml").write_text(text.replace("00000001", "00000002"))
+    refused = correct("survey", "tilted/survey.toml", "--out", "other", "--calibration", "other.toml", check=False, cwd=scratch)
+    print(refused.stderr.strip())
+    demand("the calibration of another unit is refused in one line",
+           refused.returncode == 2 and refused.stderr.count("\n") == 1 and "unit 00000002" in refused.stderr)
+    demand("the refused survey writes nothing", not (scratch / "other").exists())
+    refused = correct("calibrate", "--tilt", "tilted/survey.toml", "--out", "no.toml", check=False, cwd=scratch)
+    print(refused.stderr.strip())
+    demand("a survey day given as a tilt series is refused", refused.returncode == 2 and "one point" in refused.stderr and
+           not (scratch / "no.toml").exists())

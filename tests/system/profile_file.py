@@ -43,10 +43,17 @@ with Scratch() as scratch:
     demand("the metadata have the slope of the file", f">{SLOPE_DEGC / 65536!r}<" in response)
 
     # A wrong profile is repaired: StationXML and archive are those that the daemon would have written.
+    line = refused(BIN / "a351-correct", "retime", scratch / "data", "--out", scratch / "no", "--profile", scratch / "wrong.toml")
+    demand(f"retime names file, line, key and value: {line}", f"{scratch / 'wrong.toml'}:31: output_rate.choices.hz = 600: " in line)
     retime = (BIN / "a351-correct", "retime", "data", "--out")
     run(*retime, "named", "--profile", "fine.toml", cwd=scratch)
     line = refused(BIN / "a351-correct", "retime", scratch / "data", "--out", scratch / "coarse", "--profile", "A352AD10")
     demand(f"retime refuses a profile that cannot be true: {line}", "no sensor sends such values" in line and not (scratch / "coarse").exists())
+    (scratch / "shifted.toml").write_text((scratch / "fine.toml").read_text().replace("offset_degc = 34.987", "offset_degc = 33.987"))
+    run(*retime, "shifted", "--profile", "shifted.toml", cwd=scratch)
+    response = (scratch / "shifted" / "metadata" / "station.xml").read_text()
+    demand("the metadata have the offset of the other profile", ">33.987<" in response)
+
     # Without the file of the profile the journal still says how to read its bytes.
     (scratch / "fine.toml").unlink()
     run(*retime, "again", cwd=scratch)
@@ -54,3 +61,4 @@ with Scratch() as scratch:
     demand(f"re-timing finds the profile in the journal: {archives[1].keys()}", archives[1] and archives[1].keys() == archives[0].keys())
     differing = [name for name, content in files_below(scratch / "again").items() if files_below(scratch / "named").get(name) != content]
     demand(f"the profile of the record named makes no difference: {differing}", not differing)
+    demand("another profile does", files_below(scratch / "again") != files_below(scratch / "shifted"))

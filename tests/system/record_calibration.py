@@ -1,6 +1,6 @@
 """`calibrate` from simulated nights, and `record --apply` on another night of the same unit.
 
-The response must be true within its errors; further tests: the warm-up after power-on and merging.
+The response must be true within its errors; further tests: the warm-up after power-on, merging, and refused input.
 """
 
 import math
@@ -70,19 +70,38 @@ with Scratch() as scratch:
     demand("merging keeps the parts that were not measured again", warm_up_h(merged) == warm_up_h(first) and
            numbers(merged, "thermal", "values") == values)
 
+    calibrate(scratch, "night", "--valid-from", "2017-05-01T00:00:00Z", "--valid-to", "2018-05-01T00:00:00Z", "--out",
+              "valid.toml")
+    valid = (scratch / "valid.toml").read_text()
+    demand("the validity is that of the options", 'valid_from_utc = "2017-05-01T00:00:00.0' in valid and
+           'valid_to_utc = "2018-05-01T00:00:00.0' in valid)
     (scratch / "another.toml").write_text(text.replace("00000001", "00000002"))
+    (scratch / "later.toml").write_text(NIGHT + '[schedule]\nstart_utc = "2017-06-03T09:00:00Z"\nduration_h = 1.0\n')
+    run(BIN / "a351-sim", "survey", "--scenario", scratch / "later.toml", "--seed", 513, "--out", scratch / "another")
+    metadata = scratch / "another" / "metadata" / "station.xml"
+    metadata.write_text(metadata.read_text().replace("00000001", "00000002"))
+
+    # The same record without metadata.
+    run(BIN / "a351-correct", "record", "night", "--ensemble", "2", "--out", "night-csv", cwd=scratch)
     for arguments, words in (
+            (("night-csv/record.csv",), "serial number"),
             (("night", "--within", "1"), "switched on"),
+            (("night", "--power-on", "2017-06-01T05:00:00Z", "--within", "1"), "switched on"),
             (("night", "--power-on", "today"), "--power-on"),
+            (("night", "--valid-from", "2018-05-01T00:00:00Z", "--valid-to", "2018-05-01T00:00:00Z"), "--valid-to = "),
             (("night", "--merge", "another.toml"), "serial_number = 00000002: another unit"),
+            (("night", "another"), "allowed: one unit"),
             ((), "no record and no series")):
         bad = calibrate(scratch, *arguments, "--out", "bad.toml", check=False)
         print(bad.stderr.strip())
         demand(f"{arguments}: one line, status 2, nothing written", bad.returncode == 2 and
                bad.stderr.count("\n") == 1 and words in bad.stderr and not (scratch / "bad.toml").exists())
 
-    run(BIN / "a351-correct", "record", "first", "--apply", "night.toml", "--ensemble", "20", "--out", "applied",
-        cwd=scratch)
+    def apply(record, calibration, out, check=True):
+        return run(BIN / "a351-correct", "record", record, "--apply", calibration, "--ensemble", "20", "--out", out,
+                   cwd=scratch, check=check)
+
+    apply("first", "night.toml", "applied")
     applied = read_json(scratch / "applied" / "result.json")["applied"]
     cycle = next(band["rms_mgal"] for band in applied["bands"] if band["shortest_s"] == 600.0)
     print(applied["calibration"], cycle)
@@ -98,3 +117,11 @@ with Scratch() as scratch:
            len(filled) == sum(row["segment"] == "1" for row in table) > 4000)
     page = (scratch / "applied" / "record.html").read_text()
     demand("the page shows both corrections", "With the calibration" in page and "Allan deviation before and after" in page)
+    apply("night", "night.toml", "in-sample")
+    demand("result.json says that a calibration is applied in sample",
+           "in sample" in read_json(scratch / "in-sample" / "result.json")["applied"]["calibration"])
+    (scratch / "other.toml").write_text(text.replace("00000001", "00000002"))
+    bad = apply("night", "other.toml", "bad", check=False)
+    print(bad.stderr.strip())
+    demand("another unit's calibration is refused in one line, nothing written", bad.returncode == 2 and
+           bad.stderr.count("\n") == 1 and "00000002" in bad.stderr and not (scratch / "bad").exists())

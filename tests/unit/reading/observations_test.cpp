@@ -107,13 +107,14 @@ TEST_CASE("a row far from all others in time is named, rows of a series of singl
             rows += "A,1,0," + time + ",0,981700,42.5\n";
         return time_warnings(TableFile(rows).read());
     };
-    CHECK(warnings("2020-03-01T01:00:00Z", "2020-03-31T02:00:00Z").empty());
+    CHECK(warnings("2020-03-01T01:00:00Z", "2020-03-21T02:00:00Z").empty());
     const auto of_year = warnings("2010-03-01T01:00:00Z", "2020-03-01T03:00:00Z");
     REQUIRE(of_year.size() == 1);
     CHECK(of_year[0].english() ==
-          "A (1): 2010-03-01T01:00:00Z is more than 3652 days from every other reading: check its "
-          "year and month");
-    CHECK(warnings("2020-03-01T01:00:00Z", "2020-04-01T02:00:00Z").size() == 1);
+          "A (1): 2010-03-01T01:00:00Z is 3653 days from every other reading: check its year and "
+          "month");
+    CHECK(warnings("2020-03-01T01:00:00Z", "2020-03-22T02:00:00Z").size() == 1);
+    CHECK(warnings("1690-03-01T01:00:00Z", "2020-03-01T03:00:00Z").size() == 1);
     CHECK(warnings("2010-03-01T01:00:00Z", "2020-04-01T02:00:00Z").empty());
 }
 

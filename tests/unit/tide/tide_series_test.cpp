@@ -196,6 +196,9 @@ TEST_CASE("a given tide of another sign, time or place is named; another permane
     };
     CHECK(doubt(1.2 / 1.16, 0s, 0.06, "given").empty());
     CHECK(doubt(0.0, 0s, 0.0, "none").empty());
+    CHECK_THAT(doubt(0.0, 0s, 0.0, "given"),
+               StartsWith("the tide given is 0 throughout, where the computed one varies by more than "
+                          "0.03 mGal."));
     CHECK_THAT(doubt(-1.0, 0s, 0.0, "given"),
                StartsWith("the tide given is not that of these times and places: it differs from "
                           "the computed one by up to 0.") &&
