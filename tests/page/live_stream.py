@@ -1,13 +1,11 @@
-"""Client of the daemon's live stream on plain sockets (RFC 6455; format of the blocks: daemon/page/live_message.hpp)."""
+"""Client of the daemon's live stream on plain sockets (RFC 6455)."""
 
 import base64
-import collections
 import os
 import socket
 import struct
 
-TEXT, BINARY, CLOSE, PING, PONG = 1, 2, 8, 9, 10
-Block = collections.namedtuple("Block", "first_index time_ms interval_ms channels")
+TEXT, CLOSE, PING, PONG = 1, 8, 9, 10
 
 
 def open_stream(port, receive_buffer=None):
@@ -55,11 +53,3 @@ def messages(connection):
                 connection.sendall(bytes([0x80 | PONG, 0x80 | size]) + bytes(4) + payload)
             else:
                 yield kind, payload
-
-
-def block(payload):
-    version, kind, mask, count, first_index, time_ms, interval_ms = struct.unpack_from("<BBHIqdd", payload)
-    if (version, kind, mask) != (1, 1, 15) or len(payload) != 32 + 16 * count:
-        raise ValueError(f"no block of four channels: {payload[:32].hex()}, {len(payload)} bytes")
-    values = struct.unpack_from(f"<{4 * count}i", payload, 32)
-    return Block(first_index, time_ms, interval_ms, [values[i * count:(i + 1) * count] for i in range(4)])

@@ -66,7 +66,9 @@ for link, parts in (("absent/sensor", ["absent/sensor", "allowed"]), ("taken", [
 for option in ("--truth", "--report", "--state", "--control", "--oven-link"):
     for file in ("absent/file", LONG, "/proc/file", *((".", "loop") if option in ("--truth", "--report", "--state")
                                                       else ("loop/file",))):
-        refuse(f"{option} {file[:20]}", [file, "allowed"], *DEVICE, "sensor", option, file)
+        # No file is made before all paths were looked at.
+        truth = ("--truth", "truth.bin") if option in ("--control", "--oven-link") else ()
+        refuse(f"{option} {file[:20]}", [file, "allowed"], *DEVICE, "sensor", option, file, *truth)
 for title, parts, *options in (
         ("control socket in place of a file", ["taken", "no socket"], "--control", "taken"),
         ("truth in place of a foreign file", ["taken", "no truth file"], "--truth", "taken"),

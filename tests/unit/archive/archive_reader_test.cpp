@@ -261,17 +261,21 @@ TEST_CASE("damage within a day file costs only the damaged records and is report
         std::uint64_t offset, byte_count;
     };
     for (const auto& [reason, damage, segments, offset, byte_count] : {
-             Case{"",
+             Case{"offset 512: 512 bytes are not a record",
                   [](Bytes& bytes) { std::fill_n(bytes.begin() + 512, 512, std::byte{0}); },
                   {100, 200},
                   512,
                   512},
-             Case{"",
+             Case{"offset 1024: 200 bytes are not a record",
                   [](Bytes& bytes) { bytes.insert(bytes.begin() + 1024, 200, std::byte{0xAA}); },
                   {400},
                   1024,
                   200},
-             Case{"", [](Bytes& bytes) { bytes.pop_back(); }, {300}, 1536, 511},
+             Case{"offset 1536: 511 bytes are not a record",
+                  [](Bytes& bytes) { bytes.pop_back(); },
+                  {300},
+                  1536,
+                  511},
              Case{"offset 512: 512 bytes are a record of another station",
                   [](Bytes& bytes) { bytes[kRecordSize + 8] = std::byte{'B'}; },  // B351
                   {100, 200},

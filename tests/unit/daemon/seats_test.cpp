@@ -33,7 +33,11 @@ TEST_CASE("two of 32 seats and two of 20 streams are kept for loopback") {
     CHECK(room.left.empty());
     for (const auto& place : places) place->is_streaming = true;  // Never makes room.
     CHECK(room.take("192.0.2.99") == room.seats.end());
-    for (int i = of_loopback; i < 2; ++i) CHECK(room.take("127.0.0.1") != room.seats.end());
+    for (int i = of_loopback; i < 2; ++i) {
+        const Seats::Place kept = room.take("127.0.0.1");
+        REQUIRE(kept != room.seats.end());
+        CHECK(room.seats.begin_stream(kept));
+    }
     CHECK(room.left.empty());
 }
 

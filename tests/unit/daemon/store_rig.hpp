@@ -30,7 +30,6 @@ inline constexpr Nanoseconds kPeriod = std::chrono::milliseconds(20);
 class TroubledFiles : public test::ForwardingFiles {
 public:
     std::atomic<bool> does_sync_hang{false};
-    std::atomic<bool> does_sync_fail{false};
     std::atomic<bool> does_append_fail{false};
     std::atomic<bool> does_archive_fail{false};
     std::atomic<bool> does_archive_sync_fail{false};
@@ -68,7 +67,6 @@ private:
                 owner_.hanging = 1;
                 std::this_thread::sleep_for(std::chrono::milliseconds(1));
             }
-            if (owner_.does_sync_fail) throw std::system_error(EIO, std::generic_category());
             file_->sync();
         }
 
