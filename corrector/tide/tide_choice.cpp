@@ -176,8 +176,8 @@ text::Message doubtful_tide(const std::vector<reading::SurveyRow>& rows,
     if (as_it_is.size_mgal <= kMost_mgal) return {};
     if (std::ranges::all_of(pairs, [](const Pair& pair) { return pair.used_mgal == 0.0; }))
         return text::message(
-            "the tide {} is 0 throughout, where the computed one varies by more than {:.2f} mGal. This "
-            "is right only if the readings are corrected already; if not, use the tide direct",
+            "the tide {} is 0 throughout, where the computed one varies by more than {:.2f} mGal. "
+            "This is right only if the readings are corrected already; if not, use the tide direct",
             choice.source, kMost_mgal);
     return text::message(
         "the tide {} is not that of these times and places: it differs from the computed one by up "

@@ -51,8 +51,8 @@ with Scratch() as scratch:
         wait_for(f"{place} runs with a value", lambda: is_there(survey(session), *place, True), 30)  # noqa: B023
         told_at(session, stay["end_utc"], "stop")
         begin = time.monotonic()
-        wait_for(f"{place} has a value after its stop", lambda: is_there(survey(session), *place, False),
-                 60)  # noqa: B023
+        wait_for(f"{place} has a value after its stop",
+                 lambda: is_there(survey(session), *place, False), 60)  # noqa: B023
         waited.append(time.monotonic() - begin)
     demand(f"each value is there after {min(waited):.2f} to {max(waited):.2f} s of real time, limit {MOST_S}",
            max(waited) < MOST_S)

@@ -83,19 +83,16 @@ KILLED = 128 + signal.SIGKILL
 for claim, (script, *result), how, expected, parts in (
         ("a test that fails on a steady host fails at once", (DELICATE, 3), {}, (3, 1), ["longest delay of the host "]),
         ("a test that succeeds despite a pause runs once, and the pause is reported", (STURDY,), {"stopped_runs": [1]},
-         (0, 1),
-         ["paused for 1.", "nevertheless ended"]),
+         (0, 1), ["paused for 1.", "nevertheless ended"]),
         ("a test that failed in a pause is repeated, finds its port free and passes; the pause is reported",
-         (DELICATE, 0),
-         {"stopped_runs": [1]}, (0, 2), ["paused for 1.", "is repeated once"]),
+         (DELICATE, 0), {"stopped_runs": [1]}, (0, 2), ["paused for 1.", "is repeated once"]),
         ("a test that was stopped without its runner is repeated too", (DELICATE, 0),
          {"stopped_runs": [1], "stop_run": stop_script_alone}, (0, 2), ["paused for 1."]),
         ("a test whose repetition fails on a steady host fails", (DELICATE, 3), {"stopped_runs": [1]}, (3, 2),
          ["it counts"]),
         ("a test that fails in two runs with pauses is skipped", (DELICATE, 0), {"stopped_runs": [1, 2]}, (SKIPPED, 2),
          ["skipped: the result is unknown"]),
-        ("a run that takes too long is killed and fails", (HANGING,), {"options": ["--at-most", "1.5"]}, (KILLED, 1),
-         []),
+        ("a run that takes too long is killed and fails", (HANGING,), {"options": ["--at-most", "1.5"]}, (KILLED, 1), []),
         ("a run that takes too long in a pause is repeated, and its second failure counts", (HANGING,),
          {"stopped_runs": [1], "options": ["--at-most", "1.5"]}, (KILLED, 2), ["it counts"])):
     status, runs, said = play_script(script, *([unused_port(), *result] if result else []), **how)

@@ -52,8 +52,7 @@ def events_of(root):
 
 def bytes_of(root):
     return b"".join(data for file in sorted((root / "journal").glob("*.a351j")) for kind, payload in journal(file)
-                    if kind == RX
-                    for _, data in received(payload))
+                    if kind == RX for _, data in received(payload))
 
 
 def seconds(rfc3339):

@@ -116,8 +116,8 @@ damaged[0x282] ^= 4  # In the header of the RX chunk.
 demand("behind a damaged chunk the next ones are found", [kind for kind, _ in journal(bytes(damaged))] == [1, 3, 4, 5, 6, 7, 8])
 
 log = GOLDEN / "logs" / "clean_start"
-stream = b"".join(data for kind, payload in journal(log.with_suffix(".a351j")) if kind == RX for _,
-                  data in received(payload))
+stream = b"".join(data for kind, payload in journal(log.with_suffix(".a351j")) if kind == RX
+                  for _, data in received(payload))
 wanted = [[int(row[i]) for i in (5, 2, 3, 4, 1)] for row in rows(log.with_suffix(".csv"))]
 frames = [list(samples(stream[i:i + 24]) or ()) for i in range(0, len(stream) - 23, 24)]
 demand(f"the {len(frames)} frames of a recorded journal are the {len(wanted)} expected ones", frames == wanted)

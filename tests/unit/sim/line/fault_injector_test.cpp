@@ -31,7 +31,7 @@ TEST_CASE("each fault of the stream leaves its marks at the host and in the repo
         {"flip_bit", "count = 200\nbits = 8", 200, 4800, Fate::damaged, 200, 100, {}},
         {"flip_bit", "count = 200\nbits = 16", 200, 4800, Fate::damaged, 200, 100, {}},
         {"bad_checksum", "count = 3", 3, 72, Fate::damaged, 3, 100, gap},
-        {"stall", "seconds = 4", 0, 0, Fate::lost, 0, 0, {}},  // All arrives late.
+        {"stall", "seconds = 4", 0, 0, Fate::lost, 0, 0, {}},  // The case of two faults sees the delay.
         {"garbage", "count = 20\nbytes = 1", 0, 20, Fate::damaged, 0, 0, {}},
         {"garbage", "count = 20\nbytes = 23", 0, 460, Fate::damaged, 0, 0, {}},
         {"garbage", "count = 20\nbytes = 24", 0, 480, Fate::damaged, 0, 0, {}},
