@@ -79,6 +79,11 @@ for title, parts, *options in (
         ("impossible flash memory", ["flash.toml:3", "registers.SIG_CTRL", "65535"], "--state", "flash.toml")):
     refuse(title, parts, *DEVICE, "sensor", *options, faults='[[fault]]\nkind = "flip_bit"\nat_s = 1\nbits = 17\n',
            flash="format = 1\n[registers]\nSIG_CTRL = 0x1FFFF\n")
+for title, parts, *recording in (("absent recording", ["absent.a351j: no such file", "allowed"], "absent.a351j"),
+                                 ("table in place of a recording", ["golden.csv: begins with no record", "allowed"], "golden.csv"),
+                                 ("speed 0 of a replay", ["--speed 0: not a speed", "allowed"],
+                                  GOLDEN.parent / "logs/clean_start.a351j", "--speed", "0")):
+    refuse(title, parts, "a351-sim", "replay", *recording, "--link", "sensor")
 observations = (GOLDEN / "observations.csv").read_text()
 refuse("observation of an unknown site", ["bad.csv:3", "site", "No.99", "allowed"], *TABLE,
        bad=observations.replace("No.12,1", "No.99,1"))

@@ -1,11 +1,12 @@
 """a351-stream sends every record of a growing archive to a DataLink server once, in order, whatever happens to either side.
 
 The server is datalink_ring.py, with restarts, refusals, floods and hangs; the client is killed too.  A daemon records beside
-it and must lose nothing.  Then the ring loses packets.  stream_test.cpp has archives that are cut and damaged.
+it and must lose nothing.  Then the archive is torn and repaired as after a power cut, and the ring loses packets.
 """
 
 import datetime
 import random
+import shutil
 import signal
 import subprocess
 import threading
@@ -148,6 +149,53 @@ def live(scratch):
     return ring
 
 
+def torn(scratch):
+    """The last records are cut off, are half written, and come again, as after a power cut and its repair."""
+    root, ring = scratch / "torn", Ring(unused_port())
+    source = scratch / "data" / "archive"
+    days = sorted((one.relative_to(source) for one in source.rglob("*.BNZ.D.*")), key=lambda one: one.name)
+    content = {day: (source / day).read_bytes() for day in days}
+    (root / "archive" / days[0]).parent.mkdir(parents=True)
+    ring.start()
+    client = Client(root, ring.port, scratch / "torn.log", scratch / "torn.positions")
+    chance, cuts = random.Random(SEED), 0
+    for day in days:
+        file, data, size = root / "archive" / day, content[day], RECORD
+        file.write_bytes(data[:size])
+        while size < len(data):
+            size = min(len(data), size + chance.randrange(3000))
+            with open(file, "ab") as out:
+                out.write(data[file.stat().st_size:size])
+            time.sleep(0.05)
+            if chance.random() < 0.2:  # Records that were sent, perhaps, are lost and made again.
+                size = max(RECORD, (size // RECORD - chance.randrange(3)) * RECORD)
+                time.sleep(chance.choice([0.0, 0.6]))
+                with open(file, "ab") as out:
+                    out.truncate(size)
+                cuts += 1
+                if chance.random() < 0.3:
+                    client.end_well(signal.SIGKILL)
+                    client.start()
+    print(f"{cuts} cuts of {len(days)} day files")
+    demand_same("after cuts", ring, root / "archive")
+
+    # A record is damaged, and good ones follow it: it is skipped and reported.
+    client.end_well()
+    damaged = scratch / "damaged"
+    shutil.copytree(root / "archive", damaged / "archive")
+    file = damaged / "archive" / days[0]
+    data = bytearray(file.read_bytes())
+    data[2 * RECORD:3 * RECORD] = bytes(RECORD)
+    file.write_bytes(data)
+    other = Ring(unused_port())
+    other.start()
+    said = run(BIN / "a351-stream", damaged, f"127.0.0.1:{other.port}", "--once").stderr
+    demand(f"damage is reported: {said.strip()}", f"{file.name}: offset 1024: 512 bytes are not a record" in said)
+    demand("all records but the damaged one are sent",
+           b"".join(packet[4] for packet in other.packets) == bytes(data[:2 * RECORD] + data[3 * RECORD:]) + content[days[1]])
+    return ring
+
+
 def lost(scratch, ring):
     """The ring loses the packets of some streams, then all of them."""
     archive = scratch / "data" / "archive"
@@ -181,5 +229,6 @@ def lost(scratch, ring):
 
 with Scratch() as scratch:
     ring = live(scratch)
+    torn(scratch)
     lost(scratch, ring)
     print((scratch / "stream.log").read_text()[-1500:])
