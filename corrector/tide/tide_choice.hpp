@@ -109,8 +109,9 @@ void apply_tide(std::vector<reading::SurveyRow>& rows, const std::vector<text::S
 /// difference, and whether the other sign fits.
 ///
 /// The mean difference is left out, because the permanent tide in it is not known.  So the tide must
-/// vary: readings of an hour or two show nothing.  Limit: 0.03 mGal, above ocean loading (0.01 at most
-/// coasts) and other models; the tide of another sign or of some hours later differs by 0.1 to 0.2.
+/// vary: readings of an hour or two show nothing.  Limit: 0.03 mGal, chosen: three times what other
+/// models and factors make (gravimeter/contradictions.hpp), with room for ocean loading; the tide of
+/// another sign or of some hours later differs by 0.07 to 0.2.
 /// @param rows  after apply_tide(); those of sites without a position are left out.
 [[nodiscard]] text::Message doubtful_tide(const std::vector<reading::SurveyRow>& rows,
                                           const std::vector<text::Site>& sites,
