@@ -184,7 +184,7 @@ TEST_CASE("a given tide of another sign, time or place is named; another permane
     const auto doubt = [&site](double factor, Nanoseconds shift, double added_mgal,
                                const std::string& source) {
         std::vector<SurveyRow> rows;
-        for (int hour = 0; hour < 10; ++hour) {
+        for (int hour = 0; hour < 24; ++hour) {
             SurveyRow& row = rows.emplace_back();
             row.site = "A";
             row.occupation = hour + 1;
