@@ -50,7 +50,7 @@ struct RecoveryRig : SteppedRig {
 
 /// Files of a session of 40 s as a crash would leave them, and a store's options for them.
 struct CrashedRig : Rig {
-    std::atomic<seconds> later{seconds(0)};  ///< By how much the clock of the next store is ahead.
+    std::atomic<seconds> later{seconds(0)};  ///< The clock of the next store is ahead by this.
     store::Options again = crashed();
 
 private:

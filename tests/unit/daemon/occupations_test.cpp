@@ -304,7 +304,7 @@ TEST_CASE_METHOD(Survey, "occupations do not overlap, but a forgotten one can be
     CHECK(occupations.start("No.1", {}, minute(20)).kind == Kind::done);
     CHECK(occupations.running()->number == 2);
     occupations.stop({}, minute(30));
-    // By a clock that was set back the times of a stay may lie in others.
+    // After a clock was set back, a stay can lie within another one.
     occupations.start("No.0", {}, minute(40));
     occupations.stop({}, minute(50));
     occupations.start("No.0", {}, minute(52));

@@ -17,7 +17,7 @@ TEST_CASE("an event is read back from its line") {
     Event event = start("09:30", "No.5");
     event.index = 7;
     event.details["operator"] = "M";
-    // As the format page shows it.
+    // The line of event-format.md.
     CHECK(to_json(event) == R"({"type":"start","utc":"2026-03-01T09:30:00.000000000Z","index":7,)"
                             R"("operator":"M","site":"No.5"})");
     event.utc = at("2026-03-01T09:30:00.123456789Z");

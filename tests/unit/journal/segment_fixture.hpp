@@ -70,7 +70,7 @@ public:
 protected:
     test::TemporaryDirectory directory_;
     std::filesystem::path file_ = directory_.path() / "00000001_20260301T130000Z.a351j";
-    std::vector<std::size_t> ends_;  ///< Of the preamble and the chunks.
+    std::vector<std::size_t> ends_;  ///< End of the preamble, then of each chunk.
     Bytes whole_ = segment_of(test::one_of_each(), &ends_);
 };
 
