@@ -33,16 +33,10 @@ std::optional<std::chrono::minutes> zone_of(const std::string& text) {
     return std::chrono::duration_cast<std::chrono::minutes>(*here - *there);
 }
 
-tide::Station station_of(const gravimeter::Position& at) {
-    return {at.latitude, at.longitude, at.altitude};
+MilliGal computed_tide(UtcTime time, const tide::Station& at) {
+    return tide::direct_tide(time, at);
 }
 
-MilliGal computed_tide(UtcTime time, const gravimeter::Position& at) {
-    return tide::direct_tide(time, station_of(at));
-}
-
-/// Returns the options of the tables.  The instruments remove all of the tide: what they leave is
-/// the system tide-free.
 gravimeter::TableOptions table_options(const ImportOptions& options) {
     gravimeter::TableOptions table{{options.last, options.average == "mean"},
                                    options.tide == "keep"};
@@ -52,11 +46,7 @@ gravimeter::TableOptions table_options(const ImportOptions& options) {
             fmt::format("--tide-system = {}: the table has no tide; allowed: with --tide keep, or "
                         "in the command table",
                         options.tide_system));
-    table.tide_system = options.tide_system;
-    table.kept_tide =
-        [system = tide::system_named(options.tide_system).value()](const gravimeter::Position& at) {
-            return tide::kept_permanent_tide(system, station_of(at), {});
-        };
+    table.tide_system = tide::system_named(options.tide_system);
     return table;
 }
 

@@ -167,7 +167,8 @@ private:
             stations_.push_back(note_);
         if (const auto altitude = fields.number("altitude_m");
             !is_by_note_ && altitude && survey_.latitude && survey_.longitude)
-            reading.position = Position{*survey_.latitude, *survey_.longitude, Metres(*altitude)};
+            reading.position =
+                tide::Station{*survey_.latitude, *survey_.longitude, Metres(*altitude)};
         return reading;
     }
 

@@ -10,91 +10,26 @@
 namespace a351::corrector::gravimeter {
 namespace {
 
-using Readings = std::vector<const Reading*>;
-
-/// Returns the tide of the file minus the computed one.
-double tide_difference_mgal(const Reading& reading, const TideOf& tide_of,
-                            std::chrono::minutes shift = {}, double latitude_sign = 1.0,
-                            double longitude_sign = 1.0) {
-    Position at = *reading.position;
-    at.latitude = Degrees(latitude_sign * at.latitude.value());
-    at.longitude = Degrees(longitude_sign * at.longitude.value());
-    return (-*reading.tide_correction - tide_of(reading.time + shift, at)).value();
-}
-
-/// Returns what would make the tides agree; empty if nothing that is tried does, or too much.
-/// @param worst  the reading that differs most.
-text::Message tide_hint(const Readings& readings, const Reading& worst, const TideOf& tide_of) {
-    // A tide that hardly varies fits some other time of the day anyway.
-    constexpr double kLeastRange_mgal = 5.0 * kGreatestTideDifference_mgal;
-    const auto [least, greatest] = std::ranges::minmax_element(
-        readings, {}, [](const Reading* reading) { return reading->tide_correction->value(); });
-    if ((**greatest).tide_correction->value() - (**least).tide_correction->value() <
-        kLeastRange_mgal)
-        return {};
-    // A hundred readings are enough for a curve of half days.
-    constexpr std::size_t kMost = 100;
-    const std::size_t step = readings.size() / kMost + 1;
-    // Takes a change if the tides agree with it.  It differs without one, so that no shift of 0 fits.
-    double least_mgal = 0.0;
-    text::Message best;
-    const auto take_if_it_fits = [&](const text::Message& change, std::chrono::minutes shift,
-                                     double latitude_sign, double longitude_sign) {
-        double largest_mgal = 0.0;
-        for (std::size_t i = 0; i <= readings.size(); i += step) {
-            const Reading& reading = i == 0 ? worst : *readings[i - 1];
-            largest_mgal = std::max(
-                largest_mgal, std::abs(tide_difference_mgal(reading, tide_of, shift, latitude_sign,
-                                                            longitude_sign)));
-            if (largest_mgal > kGreatestTideDifference_mgal) return false;
-        }
-        if (best.empty() || largest_mgal < least_mgal) {
-            best = change;
-            least_mgal = largest_mgal;
-        }
-        return true;
-    };
-    constexpr std::chrono::minutes kStep{30}, kDay{24 * 60};
-    std::size_t shifts = 0;
-    for (auto shift = -kDay; shift <= kDay; shift += kStep) {
-        const double hours = static_cast<double>(shift.count()) / 60.0;
-        if (take_if_it_fits(text::message("; it fits if {:+.1f} h are added to the times", hours),
-                            shift, 1.0, 1.0))
-            ++shifts;
-    }
-    if (shifts > 1) return {};
-    // The other sign of a longitude is much like some hours, so the best of all is named.
-    take_if_it_fits(text::message("; it fits the other sign of the longitude"), {}, 1.0, -1.0);
-    take_if_it_fits(text::message("; it fits the other sign of the latitude"), {}, -1.0, 1.0);
-    return best;
-}
-
-text::Message tide_remark(const GravimeterFile& file, const TideOf& tide_of) {
-    Readings readings;
-    const Reading* worst = nullptr;
-    double largest = kGreatestTideDifference_mgal;
+text::Message tide_remark(const GravimeterFile& file, const tide::TideOf& tide_of) {
+    std::vector<tide::UsedTide> tides;
+    std::vector<std::size_t> line_of;
     for (const Reading& reading : file.readings) {
         if (!reading.tide_correction || !reading.position) continue;
-        readings.push_back(&reading);
-        const double size = std::abs(tide_difference_mgal(reading, tide_of));
-        if (size > largest) {
-            largest = size;
-            worst = &reading;
-        }
+        tides.push_back({reading.time, *reading.position, -reading.tide_correction->value()});
+        line_of.push_back(reading.line);
     }
-    if (worst == nullptr) return {};
-    if (std::ranges::all_of(readings, [](const Reading* reading) {
-            return *reading->tide_correction == MilliGal(0.0);
-        }))
+    const auto doubt = tide::find_doubt(tides, tide::kTideOfInstrument, tide_of);
+    if (!doubt) return {};
+    if (doubt->is_zero)
         return text::message(
             "the tide correction is 0 in all readings, where the tide is up to {:.3f} mGal "
             "(line {}): it is still in them. Use --tide remove, so that the tide is computed "
             "later",
-            largest, worst->line);
+            doubt->size_mgal, line_of[doubt->index]);
     return text::message(
         "the tide in the file is that of another time or place, by up to {:.3f} mGal (line "
         "{}){}: check {}. Times and positions are used as they are",
-        largest, worst->line, tide_hint(readings, *worst, tide_of),
+        doubt->size_mgal, line_of[doubt->index], doubt->remedy,
         file.format == "Scintrex CG-5" ? text::message("GMT DIFF., LONG and LAT")
                                        : text::message("the clock and the position"));
 }
@@ -105,7 +40,7 @@ struct Pair {
     double size = 0.0;
 };
 
-double distance_m(const Position& one, const Position& other) {
+double distance_m(const tide::Station& one, const tide::Station& other) {
     text::Site site;
     site.latitude = one.latitude;
     site.longitude = one.longitude;
@@ -120,7 +55,7 @@ text::Message position_remark(const GravimeterFile& file) {
         const Reading& first = *first_at.try_emplace(reading.site, &reading).first->second;
         const double size =
             std::max(distance_m(*first.position, *reading.position) / kGreatestDistance_m,
-                     std::abs((reading.position->altitude - first.position->altitude).value()) /
+                     std::abs((reading.position->height - first.position->height).value()) /
                          kGreatestHeightDifference_m);
         Pair& pair = far[reading.site];
         if (size > std::max(1.0, pair.size)) pair = {&first, &reading, size};
@@ -132,15 +67,14 @@ text::Message position_remark(const GravimeterFile& file) {
         if (pair.size > worst.size) worst = pair;
     }
     if (count == 0) return {};
-    const Position &one = *worst.first->position, &other = *worst.second->position;
+    const tide::Station &one = *worst.first->position, &other = *worst.second->position;
     return text::message(
         "positions of one station differ (stations: {}), the most at {}: {:.0f} m, and {:+.0f} "
         "m of height (lines {} and {}), {:+.2f} mGal of normal gravity. The first position of a "
         "station is used",
-        count, worst.first->site, distance_m(one, other), (other.altitude - one.altitude).value(),
+        count, worst.first->site, distance_m(one, other), (other.height - one.height).value(),
         worst.first->line, worst.second->line,
-        (normal_gravity(other.latitude, other.altitude) -
-         normal_gravity(one.latitude, one.altitude))
+        (normal_gravity(other.latitude, other.height) - normal_gravity(one.latitude, one.height))
             .value());
 }
 
@@ -195,7 +129,7 @@ text::Message stay_number_remark(const GravimeterFile& file) {
         (longest.second->value - longest.first->value).value());
 }
 
-text::Message tide_switch_remark(const GravimeterFile& file, const TideOf& tide_of) {
+text::Message tide_switch_remark(const GravimeterFile& file, const tide::TideOf& tide_of) {
     const Reading* first = nullptr;
     std::size_t count = 0;
     double largest = 0.0;
@@ -214,7 +148,7 @@ text::Message tide_switch_remark(const GravimeterFile& file, const TideOf& tide_
 
 }  // namespace
 
-std::vector<text::Message> contradictions(const GravimeterFile& file, const TideOf& tide_of) {
+std::vector<text::Message> contradictions(const GravimeterFile& file, const tide::TideOf& tide_of) {
     std::vector<text::Message> remarks;
     for (text::Message remark :
          {tide_remark(file, tide_of), position_remark(file), receiver_remark(file),

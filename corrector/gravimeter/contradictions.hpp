@@ -4,34 +4,27 @@
 ///
 ///     for (const text::Message& remark : contradictions(file, tide_of)) warn(remark);
 
-#include <functional>
 #include <vector>
 
 #include "corrector/gravimeter/gravimeter_file.hpp"
+#include "corrector/tide/tide_check.hpp"
 #include "protocol/text/message.hpp"
 
 namespace a351::corrector::gravimeter {
 
 /// Limits, above which a difference is named.
-/// mGal: the models and factors of the instruments differ by up to 0.005 (gravimeter-format.md), and
-/// a tide of another hour by more than 0.02 within a few readings.
-inline constexpr double kGreatestTideDifference_mgal = 0.01;
 /// m: a receiver without corrections is within 10 m, and its height within 10 m most of the time.
 inline constexpr double kGreatestDistance_m = 100.0, kGreatestHeightDifference_m = 10.0;
-
-/// Computes the effect of the tide on gravity.
-using TideOf = std::function<MilliGal(UtcTime, const Position&)>;
 
 /// Returns the contradictions of a file, one sentence each with the size of its effect and what is
 /// used:
 ///
-/// 1. The tide in the file differs from the computed one, or is 0 throughout.  If the tide varies, the
-///    sentence says that it fits times shifted by half hours, up to a day, or another sign of a
-///    coordinate.
+/// 1. The tide in the file differs from the computed one, or is 0 throughout (find_doubt() with
+///    kTideOfInstrument).
 /// 2. Positions of one station differ, or the receiver is elsewhere than the position entered.
 /// 3. A stay number comes back at its station after other stations.
 /// 4. The tide correction is on for some readings and off for others.
 [[nodiscard]] std::vector<text::Message> contradictions(const GravimeterFile& file,
-                                                        const TideOf& tide_of);
+                                                        const tide::TideOf& tide_of);
 
 }  // namespace a351::corrector::gravimeter

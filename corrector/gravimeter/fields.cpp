@@ -152,14 +152,14 @@ UtcTime Fields::time(std::chrono::minutes utc_minus_local, bool allows_month_fir
     return {};
 }
 
-std::optional<Position> Fields::position(std::string_view prefix) const {
+std::optional<tide::Station> Fields::position(std::string_view prefix) const {
     const auto of = [&](std::string_view name) {
         return number(fmt::format("{}{}", prefix, name));
     };
     const auto latitude = of("latitude_deg"), longitude = of("longitude_deg"),
                altitude = of("altitude_m");
     if (!latitude || !longitude || !altitude) return std::nullopt;
-    return Position{Degrees(*latitude), Degrees(*longitude), Metres(*altitude)};
+    return tide::Station{Degrees(*latitude), Degrees(*longitude), Metres(*altitude)};
 }
 
 Reading Fields::reading() const {

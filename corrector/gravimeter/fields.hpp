@@ -66,7 +66,7 @@ private:
     void check(Cell& cell);
     void refuse(std::string_view name, std::string_view cell, std::string_view reason);
     [[nodiscard]] const Cell* find(std::string_view field) const;
-    [[nodiscard]] std::optional<Position> position(std::string_view prefix) const;
+    [[nodiscard]] std::optional<tide::Station> position(std::string_view prefix) const;
 
     std::vector<Cell> cells_;
     std::string trouble_;

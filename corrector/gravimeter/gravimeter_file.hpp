@@ -20,17 +20,11 @@
 #include <utility>
 #include <vector>
 
+#include "corrector/tide/earth_tide.hpp"
 #include "protocol/core/units.hpp"
 #include "protocol/core/utc_time.hpp"
 
 namespace a351::corrector::gravimeter {
-
-/// Position of a station, as the operator or a receiver gave it.
-struct Position {
-    Degrees latitude;   ///< North.
-    Degrees longitude;  ///< East.
-    Metres altitude;
-};
 
 /// One reading of an instrument.
 struct Reading {
@@ -45,8 +39,8 @@ struct Reading {
     std::string dial;                  ///< Setting of the dial; empty if there is none.
     int loop = 0;                      ///< Number of its loop, if the file marks their ends.
     std::optional<Metres> height;      ///< Height of the instrument above the mark.
-    std::optional<Position> position;  ///< Absent: unknown.
-    std::optional<Position> receiver;  ///< Position of the receiver, if the file has it too.
+    std::optional<tide::Station> position;  ///< Absent: unknown.
+    std::optional<tide::Station> receiver;  ///< Position of the receiver, if the file has it too.
     /// Further columns: name with its unit, and the text of the file.
     std::vector<std::pair<std::string_view, std::string>> kept;
 };

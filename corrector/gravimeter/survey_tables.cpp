@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "corrector/tide/permanent_tide.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/csv.hpp"
@@ -38,12 +39,12 @@ std::string safe_cell(std::string_view text) {
 }
 
 /// The first known position of each site, by its name.
-using Positions = std::map<std::string, std::optional<Position>>;
+using Positions = std::map<std::string, std::optional<tide::Station>>;
 
 Positions positions_of(const std::vector<Stay>& stays) {
     Positions positions;
     for (const Stay& stay : stays) {
-        std::optional<Position>& position = positions[stay.site];
+        std::optional<tide::Station>& position = positions[stay.site];
         for (const Reading* const reading : stay.readings)
             if (!position) position = reading->position;
     }
@@ -52,17 +53,19 @@ Positions positions_of(const std::vector<Stay>& stays) {
 
 /// Returns what gravity at the site of a stay keeps of the permanent tide.
 MilliGal kept_tide(const Stay& stay, const Positions& positions, const TableOptions& options) {
-    if (options.tide_system.empty()) return MilliGal(0.0);
-    if (const auto& position = positions.at(stay.site)) return options.kept_tide(*position);
+    if (!options.tide_system) return MilliGal(0.0);
+    if (const auto& position = positions.at(stay.site))
+        return tide::kept_permanent_tide(*options.tide_system, *position, {});
     throw InputError(
         fmt::format("--tide-system = {}: {} has no position in the files; allowed: without it, or "
                     "--tide remove and the option of the command table",
-                    options.tide_system, stay.site));
+                    tide::name_of(*options.tide_system), stay.site));
 }
 
 std::string observations_csv(const std::vector<Stay>& stays, const Positions& positions,
                              const TableOptions& options) {
-    const std::string system_cell = options.tide_system.empty() ? "" : "," + options.tide_system;
+    const std::string system_cell =
+        options.tide_system ? fmt::format(",{}", tide::name_of(*options.tide_system)) : "";
     std::string csv = fmt::format(
         "site,occupation,outlier,time_utc,{}acceleration_mgal,temperature_degc,instrument,loop,"
         "instrument_height_m,pressure_hpa,sd_mgal,readings{}\n",
@@ -93,11 +96,11 @@ std::string sites_csv(const std::vector<Stay>& stays, const Positions& positions
         "m\n";
     for (const Stay& stay : stays) {
         if (stay.occupation > 1) continue;  // its site has a row already
-        const std::optional<Position>& position = positions.at(stay.site);
+        const std::optional<tide::Station>& position = positions.at(stay.site);
         csv += stay.site + (position ? fmt::format(",{},{},{},,,\n",
                                                    text::shortest(position->longitude.value()),
                                                    text::shortest(position->latitude.value()),
-                                                   text::shortest(position->altitude.value()))
+                                                   text::shortest(position->height.value()))
                                      : ",,,,,,\n");
     }
     return csv;

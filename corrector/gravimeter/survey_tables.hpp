@@ -4,8 +4,7 @@
 ///
 ///     text::write_together("out", survey_tables(files, stays, options));
 
-#include <functional>
-#include <string>
+#include <optional>
 #include <vector>
 
 #include "corrector/gravimeter/stays.hpp"
@@ -19,9 +18,9 @@ struct TableOptions {
     /// True: earth_tide_mgal has the tide that the instrument removed.  False: the column is absent,
     /// so that `table` computes the tide.
     bool keeps_tide = true;
-    std::string tide_system = {};  ///< Name of the system for the column tide_system; empty: no column.
-    /// Returns what gravity keeps of the permanent tide, which the instrument has removed.
-    std::function<MilliGal(const Position&)> kept_tide = {};
+    /// The permanent tide that gravity keeps, and the column tide_system.  Absent: no column, and
+    /// gravity keeps what the instruments leave, which is tide_free.
+    std::optional<tide::System> tide_system = {};
 };
 
 /// Returns observations.csv, sites.csv and readings.csv (gravimeter-format.md).

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "corrector/tide/permanent_tide.hpp"
+#include "corrector/tide/tide_check.hpp"
 #include "corrector/tide/tide_series.hpp"
 #include "protocol/core/input_error.hpp"
 
@@ -143,49 +144,31 @@ void apply_tide(std::vector<reading::SurveyRow>& rows, const std::vector<text::S
 text::Message doubtful_tide(const std::vector<reading::SurveyRow>& rows,
                             const std::vector<text::Site>& sites, const Choice& choice) {
     if (is_computed(choice) || choice.source == "none") return {};
-    struct Pair {
-        const reading::SurveyRow* row;
-        double used_mgal, computed_mgal;
-    };
-    std::vector<Pair> pairs;
+    std::vector<UsedTide> tides;
+    std::vector<const reading::SurveyRow*> row_of;
     for (const reading::SurveyRow& row : rows) {
         const text::Site* const site = text::find_site(sites, row.site);
         if (site == nullptr || !site->is_placed) continue;
-        const tide::Station station{site->latitude, site->longitude, site->altitude};
-        pairs.push_back({&row, row.tide.value(), direct_tide(row.time, station).value()});
+        tides.push_back(
+            {row.time, {site->latitude, site->longitude, site->altitude}, row.tide.value()});
+        row_of.push_back(&row);
     }
-    struct Largest {
-        double size_mgal = 0.0;
-        const reading::SurveyRow* row = nullptr;
-    };
-    const auto largest_difference = [&pairs](double sign) {
-        double mean_mgal = 0.0;
-        for (const Pair& pair : pairs)
-            mean_mgal += (sign * pair.used_mgal - pair.computed_mgal) /
-                         static_cast<double>(pairs.size());
-        Largest largest;
-        for (const Pair& pair : pairs)
-            if (const double size_mgal =
-                    std::abs(sign * pair.used_mgal - pair.computed_mgal - mean_mgal);
-                size_mgal > largest.size_mgal)
-                largest = {size_mgal, pair.row};
-        return largest;
-    };
-    constexpr double kMost_mgal = 0.03;
-    const Largest as_it_is = largest_difference(1.0);
-    if (as_it_is.size_mgal <= kMost_mgal) return {};
-    if (std::ranges::all_of(pairs, [](const Pair& pair) { return pair.used_mgal == 0.0; }))
+    const auto doubt = find_doubt(tides, kTideOfAnyTable, [](UtcTime time, const Station& station) {
+        return direct_tide(time, station);
+    });
+    if (!doubt) return {};
+    if (doubt->is_zero)
         return text::message(
             "the tide {} is 0 throughout, where the computed one varies by more than {:.2f} mGal. "
             "This is right only if the readings are corrected already; if not, use the tide direct",
-            choice.source, kMost_mgal);
+            choice.source, kTideOfAnyTable.most_mgal);
     return text::message(
         "the tide {} is not that of these times and places: it differs from the computed one by up "
         "to {:.3f} mGal, at {} ({}){}. It is used as it is",
-        choice.source, as_it_is.size_mgal, as_it_is.row->site, as_it_is.row->occupation,
-        largest_difference(-1.0).size_mgal <= kMost_mgal
-            ? text::message("; with the other sign it fits")
-            : text::message(": check its sign, the times and the positions"));
+        choice.source, doubt->size_mgal, row_of[doubt->index]->site,
+        row_of[doubt->index]->occupation,
+        doubt->remedy.empty() ? text::message(": check its sign, the times and the positions")
+                              : doubt->remedy);
 }
 
 void describe_tide(Json& settings, const Choice& choice) {

@@ -105,13 +105,7 @@ void apply_tide(std::vector<reading::SurveyRow>& rows, const std::vector<text::S
                 const Choice& choice, reading::DayRecord* day = nullptr);
 
 /// Returns a warning if a tide that is not computed, `given` or a series, is not that of the times and
-/// places of the rows: it is 0 throughout, or differs from direct_tide().  The warning has the largest
-/// difference, and whether the other sign fits.
-///
-/// The mean difference is left out, because the permanent tide in it is not known.  So the tide must
-/// vary: readings of an hour or two show nothing.  Limit: 0.03 mGal, chosen: three times what other
-/// models and factors make (gravimeter/contradictions.hpp), with room for ocean loading; the tide of
-/// another sign or of some hours later differs by 0.07 to 0.2.
+/// places of the rows (find_doubt() with kTideOfAnyTable): readings of an hour or two show nothing.
 /// @param rows  after apply_tide(); those of sites without a position are left out.
 [[nodiscard]] text::Message doubtful_tide(const std::vector<reading::SurveyRow>& rows,
                                           const std::vector<text::Site>& sites,

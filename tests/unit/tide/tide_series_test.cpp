@@ -202,10 +202,12 @@ TEST_CASE("a given tide of another sign, time or place is named; another permane
     CHECK_THAT(doubt(-1.0, 0s, 0.0, "given"),
                StartsWith("the tide given is not that of these times and places: it differs from "
                           "the computed one by up to 0.") &&
-                   EndsWith("; with the other sign it fits. It is used as it is"));
+                   EndsWith("; it fits the other sign of the tide. It is used as it is"));
     CHECK_THAT(doubt(1.0, 9h, 0.0, "given"),
-               ContainsSubstring("at A (") && EndsWith(": check its sign, the times and the "
-                                                       "positions. It is used as it is"));
+               ContainsSubstring("at A (") &&
+                   EndsWith("; it fits if +9.0 h are added to the times. It is used as it is"));
+    CHECK_THAT(doubt(2.0, 0s, 0.0, "given"),
+               EndsWith(": check its sign, the times and the positions. It is used as it is"));
 }
 
 TEST_CASE("a tide that the survey declares as given must be in the table") {

@@ -1,0 +1,90 @@
+#include "corrector/tide/tide_check.hpp"
+
+#include "tests/support/catch.hpp"
+
+using namespace a351;
+using namespace a351::corrector::tide;
+
+namespace {
+
+const UtcTime kMidnight = *parse_rfc3339("2017-04-17T00:00:00Z");
+const Station kDenver{Degrees(39.5), Degrees(-105.0), Metres(1577.0)};
+
+MilliGal computed(UtcTime time, const Station& station) { return direct_tide(time, station); }
+
+/// Returns the right tide of each five minutes of a day, read at times and places that are
+/// off.
+std::vector<UsedTide> day(std::chrono::minutes clock = {}, const Station& written = kDenver) {
+    std::vector<UsedTide> tides;
+    for (std::chrono::minutes at{0}; at <= std::chrono::hours(24); at += std::chrono::minutes(5))
+        tides.push_back(
+            {kMidnight + at + clock, written, computed(kMidnight + at, kDenver).value()});
+    return tides;
+}
+
+std::string remedy(const std::vector<UsedTide>& tides, const Agreement& agreement) {
+    const auto doubt = find_doubt(tides, agreement, computed);
+    return doubt ? doubt->remedy.english() : "agrees";
+}
+
+}  // namespace
+
+TEST_CASE("a tide that does not agree is named with what would make it agree") {
+    for (const Agreement& agreement : {kTideOfInstrument, kTideOfAnyTable}) {
+        CHECK(remedy(day(), agreement) == "agrees");
+        CHECK(remedy(day(std::chrono::hours(9)), agreement) ==
+              "; it fits if -9.0 h are added to the times");
+        CHECK(remedy(day(std::chrono::minutes(-330)), agreement) ==
+              "; it fits if +5.5 h are added to the times");
+        Station other = kDenver;
+        other.longitude = Degrees(105.0);
+        CHECK(remedy(day({}, other), agreement) == "; it fits the other sign of the longitude");
+        other = kDenver;
+        other.latitude = Degrees(-39.5);
+        CHECK(remedy(day({}, other), agreement) == "; it fits the other sign of the latitude");
+        auto tides = day();
+        for (UsedTide& used : tides) used.tide_mgal *= -1.0;
+        CHECK(remedy(tides, agreement) == "; it fits the other sign of the tide");
+        for (UsedTide& used : tides) used.tide_mgal *= 2.0;
+        CHECK(remedy(tides, agreement).empty());
+        for (UsedTide& used : tides) used.tide_mgal = 0.0;
+        CHECK(find_doubt(tides, agreement, computed)->is_zero);
+    }
+    CHECK_FALSE(find_doubt({}, kTideOfInstrument, computed));
+}
+
+TEST_CASE("a constant is a doubt only where it is known") {
+    auto tides = day();
+    for (UsedTide& used : tides) used.tide_mgal += 0.04;
+    CHECK(remedy(tides, kTideOfAnyTable) == "agrees");
+    CHECK(find_doubt(tides, kTideOfInstrument, computed)->size_mgal == Approx(0.04));
+}
+
+TEST_CASE("one wrong tide among many is the worst, and no shift of the times") {
+    auto tides = day();
+    tides[8].tide_mgal += 0.05;
+    for (const Agreement& agreement : {kTideOfInstrument, kTideOfAnyTable}) {
+        const auto doubt = find_doubt(tides, agreement, computed);
+        REQUIRE(doubt);
+        CHECK(doubt->index == 8);
+        CHECK(doubt->size_mgal == Approx(0.05).margin(0.001));
+        CHECK(doubt->remedy.empty());
+    }
+}
+
+TEST_CASE("hours are not named where the tide fits several of them") {
+    // The tide of one reading returns in the course of a day.
+    const auto tides = day(std::chrono::hours(9));
+    CHECK(remedy({tides[120]}, kTideOfInstrument).empty());
+    // A tide of one wave of half a day fits twice a day.
+    const auto wave = [](UtcTime time, const Station&) {
+        return MilliGal(0.1 *
+                        std::sin(6.283185307179586 * seconds_between(kMidnight, time) / 43200.0));
+    };
+    auto waves = tides;
+    for (UsedTide& used : waves)
+        used.tide_mgal = wave(used.time + std::chrono::hours(3), kDenver).value();
+    const auto doubt = find_doubt(waves, kTideOfInstrument, wave);
+    REQUIRE(doubt);
+    CHECK(doubt->remedy.empty());
+}
