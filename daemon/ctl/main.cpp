@@ -180,9 +180,9 @@ void add_resume(CLI::App& app, Arguments& a) {
 void add_rename(CLI::App& app, Arguments& a) {
     auto* rename = app.add_subcommand("rename", "Corrects the site of a stay.");
     rename
-        ->add_option("[STAY] SITE", a.stay_and_site,
-                     "Key of the stay, from list (default: the running or last one), and its "
-                     "correct benchmark")
+        ->add_option("SITE", a.stay_and_site,
+                     "Correct benchmark; in front of it the key of the stay, from list (default: "
+                     "the running or last one)")
         ->type_name("")
         ->expected(1, 2)
         ->required();

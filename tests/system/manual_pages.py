@@ -24,6 +24,13 @@ def offered_options(help_text):
     return set(re.findall(OPTION, "\n".join(line for line in help_text.splitlines() if line.lstrip().startswith("-"))))
 
 
+def demand_words(name, help_text):
+    """CLI11 2.4 (Debian 13) ends a program whose positional argument is not one word; 2.1 (Debian 12) does not."""
+    named = re.findall(r"^  (\S.*?)(?:  |$)", help_text.partition("\nPositionals:\n")[2].split("\n\n")[0], re.M)
+    others = [one for one in named if re.fullmatch(r"[A-Z]+( DIR| :PATH\(existing\))?( \.\.\.)?( REQUIRED)?", one) is None]
+    demand(f"positional arguments of {name} are words: {', '.join(named) or 'none'}", not others)
+
+
 def demand_same(what, page, described, accepted):
     demand(f"{what}: missing in {page}: {sorted(accepted - described) or 'none'}; there, but do not exist: "
            f"{sorted(described - accepted) or 'none'}", accepted == described)
@@ -54,6 +61,7 @@ def pages_of_subcommands(program, folder, commands_folder):
     for page, (name, said) in helps.items():
         entries = "\n".join(re.findall(r"^\.TP\n(.*)$", section_of(text_of(page), ".SH OPTIONS"), re.M))
         demand_same(f"options of {name}", page.name, set(re.findall(OPTION, entries)), offered_options(said))
+        demand_words(name, said)
         shown = set(re.findall(OPTION, section_of(text_of(page), ".SH SYNOPSIS")))
         demand(f"options in its synopsis, all of which exist: {sorted(shown) or 'none'}", shown <= offered_options(said))
     for command in commands:
@@ -78,6 +86,8 @@ def accepted_keys(command, *texts):
 
 for program, (page, commands) in PAGES.items():
     helps = [run(BIN / program, *command, "--help").stdout for command in [[]] + [c.split() for c in commands]]
+    for name, said in zip([program] + commands, helps):
+        demand_words(name, said)
     page_text = text_of(TOP / page)
     lines = [line for line in page_text.splitlines() if line.startswith((".TP", ".B", ".BI", ".BR"))]
     demand_same(f"options of {program}", page, set(re.findall(OPTION, "\n".join(lines))), offered_options("\n".join(helps)))
