@@ -34,7 +34,8 @@ void read_and_write(const std::string& input, const std::filesystem::path& path)
         require(text::trouble_with_site_name(reading.site).empty());
         require(text::trouble_with_site_name(reading.instrument).empty());
     }
-    (void)contradictions(file, [](UtcTime, const tide::Station&) { return MilliGal(0.0); });
+    (void)contradictions(file,
+                         [](UtcTime, const corrector::tide::Station&) { return MilliGal(0.0); });
     const auto stays = find_stays(files);
     for (const auto& [name, content] : survey_tables(files, stays, {{}, false}))
         require(text::CsvTable::parse(content, name).row_count() > 0);

@@ -14,6 +14,9 @@ using Catch::Matchers::ContainsSubstring;
 }
 #endif
 
+// It searches a text in version 2, and an element of a list in version 3.
+#pragma GCC poison Contains
+
 using Catch::Matchers::EndsWith;
 using Catch::Matchers::Message;
 using Catch::Matchers::StartsWith;

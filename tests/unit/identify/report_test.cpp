@@ -11,8 +11,6 @@
 namespace a351::daemon::identify {
 namespace {
 
-using Catch::Matchers::Contains;
-
 Line line_of(const Report& report, const std::string& topic) {
     const auto found = std::ranges::find(report.lines, topic, &Line::topic);
     REQUIRE(found != report.lines.end());
@@ -47,22 +45,24 @@ TEST_CASE("a sensor that agrees with its configuration is confirmed in each poin
     CHECK_FALSE(report.toml);
     CHECK(report.sensor == "sensor A351AU10, serial number 00000042, firmware 7, at /dev/ttyUSB0");
     CHECK_THAT(to_text(report),
-               Contains("confirmed      rate: 50.000 frames a second, expected 50"));
-    CHECK_THAT(advice(report, "A351", "stem"), Contains("profile A351 fits\n"));
-    CHECK_THAT(to_text(report),
-               Contains("the values of profile A351, which is not verified, are from\n") &&
-                   Contains("\n  temperature: assumed: as the M-A352AD10; its data sheet") &&
-                   Contains("\n  filter: assumed: as the M-A352AD10"));
+               ContainsSubstring("confirmed      rate: 50.000 frames a second, expected 50"));
+    CHECK_THAT(advice(report, "A351", "stem"), ContainsSubstring("profile A351 fits\n"));
+    CHECK_THAT(
+        to_text(report),
+        ContainsSubstring("the values of profile A351, which is not verified, are from\n") &&
+            ContainsSubstring("\n  temperature: assumed: as the M-A352AD10; its data sheet") &&
+            ContainsSubstring("\n  filter: assumed: as the M-A352AD10"));
 }
 
 TEST_CASE("another product of the family gets the profile that is shipped for it") {
     MadeUpSensor sensor;
     sensor.product = "A352AD10";
     const Report report = report_of(sensor);
-    CHECK_THAT(only_difference(report, "product"), Contains("begin with A351"));
+    CHECK_THAT(only_difference(report, "product"), ContainsSubstring("begin with A351"));
     CHECK(report.profile == "A352AD10");
     CHECK_FALSE(report.toml);
-    CHECK_THAT(advice(report, "A351", "stem"), Contains("set sensor.profile = \"A352AD10\""));
+    CHECK_THAT(advice(report, "A351", "stem"),
+               ContainsSubstring("set sensor.profile = \"A352AD10\""));
 }
 
 TEST_CASE("an unknown product gets a profile of its own") {
@@ -74,7 +74,8 @@ TEST_CASE("an unknown product gets a profile of its own") {
     CHECK(profile.product_id == "B999XY00");
     CHECK(profile.product_id_prefix == "B999XY00");
     CHECK_FALSE(profile.is_verified);
-    CHECK_THAT(advice(report, "A351", "stem"), Contains("set sensor.profile = \"stem.toml\""));
+    CHECK_THAT(advice(report, "A351", "stem"),
+               ContainsSubstring("set sensor.profile = \"stem.toml\""));
 }
 
 TEST_CASE("a scale that is a power of 2 away is named, and is in the profile that fits") {
@@ -85,8 +86,9 @@ TEST_CASE("a scale that is a power of 2 away is named, and is in the profile tha
                 axis = static_cast<std::int32_t>(std::lround(std::ldexp(axis, excess)));
         };
         const Report report = report_of(sensor);
-        CHECK_THAT(only_difference(report, "norm"),
-                   Contains("acceleration.fraction_bits = " + std::to_string(24 + excess)));
+        CHECK_THAT(
+            only_difference(report, "norm"),
+            ContainsSubstring("acceleration.fraction_bits = " + std::to_string(24 + excess)));
         REQUIRE(report.toml);
         const auto profile = wire::parse_profile(*report.toml, "mine", "mine.toml");
         CHECK(profile.acceleration_fraction_bits == 24 + excess);
@@ -97,13 +99,13 @@ TEST_CASE("a scale that is a power of 2 away is named, and is in the profile tha
         for (std::int32_t& axis : values.axes) axis = axis / 10 * 7;
     };
     const Report report = report_of(odd);
-    CHECK_THAT(only_difference(report, "norm"), Contains("no scale of the family fits"));
+    CHECK_THAT(only_difference(report, "norm"), ContainsSubstring("no scale of the family fits"));
     CHECK(report.profile.empty());
     CHECK_FALSE(report.toml);
     Expected lower = expected_a351();
     lower.gravity = StandardGravity(0.999);
     CHECK_THAT(line_of(report_on(MadeUpSensor{}.observe(), lower), "norm").finding,
-               Contains("1.00002 g, +1.02 mg from normal gravity"));
+               ContainsSubstring("1.00002 g, +1.02 mg from normal gravity"));
 }
 
 TEST_CASE("a bias of 40 mg is no other scale, and for a box that moves no profile fits") {
@@ -164,20 +166,20 @@ TEST_CASE("a temperature of 0 counts, or of no sample, is dead, and a quiet oven
         const Report report = report_of(sensor);
         CHECK(report.differs() == (counts != -1981));
         CHECK_THAT(line_of(report, "temperature").finding,
-                   Contains(counts == -1981 ? "profile A351: 42.50 degC; for the counts N"
-                                            : "none of them is possible"));
+                   ContainsSubstring(counts == -1981 ? "profile A351: 42.50 degC; for the counts N"
+                                                     : "none of them is possible"));
     }
 }
 
 TEST_CASE("an axis that is dead, and one that is not the vertical one, are named") {
     MadeUpSensor sensor;
     sensor.change = [](int, wire::BurstValues& values) { values.axes[0] = 0; };
-    CHECK_THAT(only_difference(report_of(sensor), "noise of x"), Contains("dead"));
+    CHECK_THAT(only_difference(report_of(sensor), "noise of x"), ContainsSubstring("dead"));
     sensor.change = [](int, wire::BurstValues& values) {
         std::swap(values.axes[0], values.axes[2]);
     };
     CHECK_THAT(only_difference(report_of(sensor), "vertical axis"),
-               Contains("x, 0.3 degrees from the vertical; sensor.axes calls z Z"));
+               ContainsSubstring("x, 0.3 degrees from the vertical; sensor.axes calls z Z"));
     Expected without_z = expected_a351();
     without_z.axes = {"1", "2", "3"};
     CHECK(line_of(report_on(sensor.observe(), without_z), "vertical axis").verdict ==
@@ -194,7 +196,7 @@ TEST_CASE("another rate, another tick and late frames are told apart") {
     MadeUpSensor other;
     other.count_step = 40;
     CHECK_THAT(only_difference(report_of(other), "tick"),
-               Contains("COUNT rises by 40 a frame, 2000.0 a second"));
+               ContainsSubstring("COUNT rises by 40 a frame, 2000.0 a second"));
 
     Observation late = MadeUpSensor{}.observe();  // The first and the last frames arrive late.
     for (std::size_t k = 0; k < late.reads.size(); ++k)
@@ -209,7 +211,7 @@ TEST_CASE("lost frames do not change the rate, and damaged ones are counted") {
     seen.bytes[24 * 1000 + 7] ^= std::byte{1};
     const Report report = report_on(seen, expected_a351());
     CHECK_THAT(only_difference(report, "frames"),
-               Contains("2499 of 24 bytes each; 24 bytes are not understood"));
+               ContainsSubstring("2499 of 24 bytes each; 24 bytes are not understood"));
 }
 
 TEST_CASE("baud rate, serial number, start-up test and silent registers are compared") {
@@ -220,13 +222,14 @@ TEST_CASE("baud rate, serial number, start-up test and silent registers are comp
     seen = MadeUpSensor{}.observe();
     seen.start_up_test = wire::StartUpTest::hard_error;
     CHECK_THAT(only_difference(report_on(seen, expected_a351()), "start-up test"),
-               Contains("HARD_ERR"));
+               ContainsSubstring("HARD_ERR"));
     seen = MadeUpSensor{}.observe();
     CHECK_THAT(line_of(report_on(seen, expected_a351()), "registers").finding,
-               Contains(" answered") && !Contains("repeated"));
+               ContainsSubstring(" answered") && !ContainsSubstring("repeated"));
     seen.repeated_reads = 2;
     CHECK_THAT(line_of(report_on(seen, expected_a351()), "registers").finding,
-               Contains(" answered; reads repeated because an answer was late, lost or wrong: 2"));
+               ContainsSubstring(
+                   " answered; reads repeated because an answer was late, lost or wrong: 2"));
     seen.repeated_reads = 0;
     seen.registers[3].value.reset();
     CHECK(only_difference(report_on(seen, expected_a351()), "registers") == "no answer from FLAG");
@@ -263,21 +266,23 @@ TEST_CASE("a sensor that is refused before it is asked for its name has no profi
     CHECK(only_difference(report, "settings") == seen.trouble);
     CHECK(report.profile.empty());
     CHECK_FALSE(report.toml);
-    CHECK_THAT(advice(report, "A351", "stem"), Contains("no profile is known that fits\n"));
+    CHECK_THAT(advice(report, "A351", "stem"),
+               ContainsSubstring("no profile is known that fits\n"));
 }
 
 TEST_CASE("silence, text and other bytes have different explanations") {
     Observation seen;
     seen.port = "/dev/ttyUSB0, 115200 baud";
-    CHECK_THAT(explain_silence(seen), Contains("no answer at any baud rate"));
+    CHECK_THAT(explain_silence(seen), ContainsSubstring("no answer at any baud rate"));
     seen.heard = "$GPGGA,123519,4807.038,N,01131.000,E,1,08,0.9,545.4,M,46.9,M,,*47\r\n";
-    CHECK_THAT(explain_silence(seen), Contains("(\"$GPGGA,123519,4807.038,N") &&
-                                          Contains("GPS receiver") && !Contains("\\x0D"));
+    CHECK_THAT(explain_silence(seen), ContainsSubstring("(\"$GPGGA,123519,4807.038,N") &&
+                                          ContainsSubstring("GPS receiver") &&
+                                          !ContainsSubstring("\\x0D"));
     const Observation sensor = MadeUpSensor{}.observe();
     seen.heard.clear();
     for (std::size_t i = 0; i < 24; ++i) seen.heard.push_back(static_cast<char>(sensor.bytes[i]));
     CHECK_FALSE(is_text(seen.heard));
-    CHECK_THAT(explain_silence(seen), Contains("none can be understood"));
+    CHECK_THAT(explain_silence(seen), ContainsSubstring("none can be understood"));
 }
 
 }  // namespace a351::daemon::identify
