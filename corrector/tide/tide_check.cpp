@@ -39,6 +39,10 @@ Doubt largest_difference(const std::vector<UsedTide>& tides, const Agreement& ag
 /// @param worst  the tide that differs most.
 text::Message find_remedy(const std::vector<UsedTide>& tides, const UsedTide& worst,
                           const Agreement& agreement, const TideOf& tide_of) {
+    // A tide that hardly varies fits some other time of the day anyway.
+    constexpr double kLeastRange_mgal = 0.05;
+    const auto [least, greatest] = std::ranges::minmax_element(tides, {}, &UsedTide::tide_mgal);
+    if (greatest->tide_mgal - least->tide_mgal < kLeastRange_mgal) return {};
     // A hundred readings are enough for a curve of half days.
     constexpr std::size_t kMost = 100;
     std::vector<UsedTide> some{worst};
@@ -71,7 +75,7 @@ text::Message find_remedy(const std::vector<UsedTide>& tides, const UsedTide& wo
                                                     static_cast<double>(shift.count()) / 60.0)))
             best_shift = shift;
     }
-    // The tide nearly returns after a lunar day, and one that hardly varies fits many times.
+    // The tide nearly returns after a lunar day.
     const double least_gap_mgal = agreement.most_mgal / 4.0;
     for (const auto& [shift, size_mgal] : size_mgal_of)
         if (best_shift && std::chrono::abs(shift - *best_shift) > kNear &&
