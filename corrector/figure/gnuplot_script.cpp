@@ -10,6 +10,7 @@
 
 #include "corrector/figure/escaping.hpp"
 #include "corrector/figure/layout.hpp"
+#include "corrector/figure/logarithmic_axis.hpp"
 #include "corrector/figure/print_style.hpp"
 #include "protocol/text/aligned_text.hpp"
 
@@ -90,25 +91,13 @@ std::string place_in(const Panel& panel, const Place& place) {
                        number(place.y));
 }
 
-/// Ratio of the ends of a logarithmic axis below which it has numbers at 1, 2 and 5.
-constexpr double kFewDecades = 100.0;
-
 std::string ticks_of(const Axis& axis) {
     std::vector<std::string> names;
     for (const auto& [value, text] : axis.names)
         names.push_back(expression(text) + ' ' + number(value));
     if (!names.empty()) return '(' + text::joined(names) + ')';
-    if (axis.scale == Scale::logarithmic && axis.range[1] < kFewDecades * axis.range[0] &&
-        !axis.format.empty()) {
-        // gnuplot has numbers at powers of ten only.
-        for (double power = std::pow(10.0, std::floor(std::log10(axis.range[0])));
-             power <= axis.range[1]; power *= 10.0)
-            for (const double digit : {1.0, 2.0, 5.0})
-                if (digit * power >= axis.range[0] && digit * power <= axis.range[1])
-                    names.push_back(fmt::format("{0:.6g}", digit * power));
-        if (names.size() > 1) return '(' + text::joined(names) + ')';
-        return "autofreq";
-    }
+    if (axis.scale == Scale::logarithmic)
+        if (std::string ticks = logarithmic_ticks(axis.range); !ticks.empty()) return ticks;
     if (axis.step == 0.0) return "autofreq";
     return number(axis.step);
 }
@@ -280,6 +269,7 @@ std::string script_of(const Figure& figure) {
     std::vector<std::string> before = settings_of({});
     for (std::size_t k = 0; k < count; ++k) {
         Panel panel = figure.panels[k];
+        set_decades(panel, figure);
         if (!layout.panels[k].has_x) panel.x.format = "";
         if (!layout.panels[k].has_y) panel.y.format = "";
         std::vector<std::string> settings = settings_of(panel);

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "corrector/figure/layout.hpp"
+#include "corrector/figure/logarithmic_axis.hpp"
 #include "tests/unit/figure/corrected_rows.hpp"
 
 using namespace a351;
@@ -158,16 +159,31 @@ TEST_CASE("texts above a panel get as many lines as they need") {
     CHECK(place().key_rows == 2);
 }
 
-TEST_CASE("a logarithmic axis of less than two decades has numbers at 1, 2 and 5") {
+TEST_CASE("a logarithmic axis of less than three decades has ticks of our own") {
+    CHECK(logarithmic_ticks({0.9, 21.0}) ==
+          "('' 0.9 1, 1, 2, '' 3 1, '' 4 1, 5, '' 6 1, '' 7 1, '' 8 1, '' 9 1, 10, 20)");
+    CHECK_THAT(logarithmic_ticks({0.1, 99.0}), StartsWith("(0.1, '' 0.2 1,"));
+    CHECK(logarithmic_ticks({0.3, 0.7}) == "(0.3, 0.4, 0.5, 0.6, 0.7)");
+    CHECK(logarithmic_ticks({0.31, 0.39}).empty());
+    CHECK(logarithmic_ticks({0.1, 100.0}).empty());
+    CHECK(logarithmic_ticks({kFromData, kFromData}).empty());
+
     Figure figure{"f", "", kColumn_mm};
     Panel& panel = figure.panels.emplace_back();
-    panel.series = {{.source = kZero}};
     panel.x = {.label = "x - 1", .range = {0.008, 0.3}, .scale = Scale::logarithmic};
-    panel.y = {.label = "- y", .range = {0.008, 30.0}, .scale = Scale::logarithmic};
+    panel.y = {.label = "- y", .scale = Scale::logarithmic};
+    panel.colours = {.label = "z", .scale = Scale::logarithmic};
+    figure.plot("other", "1 1e9 \n", {});
+    panel.series.clear();
+    figure.plot("x y low high", "0.01 30 NaN 0 \n\n0.02 0.4 0.02 500 \n",
+                {.columns = {1, 2, 3, 4}});
+    figure.plot("x y low high", "0.01 1 7 \n", {.colour = Colour::by_value, .columns = {1, 2, 3}});
     const std::string script = script_of(figure);
-    CHECK_THAT(script,
-               ContainsSubstring("set xtics mirror norotate (0.01, 0.02, 0.05, 0.1, 0.2)") &&
-                   !ContainsSubstring("set ytics"));
+    CHECK_THAT(
+        script,
+        ContainsSubstring("set xtics mirror norotate ('' 0.008 1, '' 0.009 1, 0.01, 0.02, ") &&
+            ContainsSubstring("set yrange [0.01:1000]\n") &&
+            ContainsSubstring("set cbrange [1:10]\n") && !ContainsSubstring("set ytics"));
     // Their labels have a minus sign in place of a hyphen.
     CHECK_THAT(script, ContainsSubstring("'x \u2212 1'") && ContainsSubstring("'\u2212 y'"));
 }
