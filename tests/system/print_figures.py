@@ -95,5 +95,7 @@ with Scratch() as scratch:
     sites = (GOLDEN / "sites.csv").read_text().splitlines()
     (scratch / "unknown.csv").write_text("\n".join(sites[:2] + [line.rpartition(",")[0] + "," for line in sites[2:]]) + "\n")
     for language, width_mm in itertools.product(("en", "ja"), (84, 170)):
+        if language == "ja" and not run("fc-list", ":lang=ja").stdout:
+            skip("the figures in Japanese need a font (Debian: fonts-noto-cjk)")
         if IS_LONG or (language == "en") == (width_mm == 84):
             draw(scratch, language, width_mm)
