@@ -9,8 +9,8 @@
 #include "corrector/gravimeter/contradictions.hpp"
 #include "corrector/gravimeter/site_names.hpp"
 #include "corrector/gravimeter/survey_tables.hpp"
-#include "corrector/tide/earth_tide.hpp"
 #include "corrector/tide/permanent_tide.hpp"
+#include "corrector/tide/tide_check.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/core/utc_time.hpp"
 
@@ -31,10 +31,6 @@ std::optional<std::chrono::minutes> zone_of(const std::string& text) {
     if (!there)
         throw InputError(fmt::format("--zone = {}: not a zone; allowed: +hh:mm, -hh:mm, Z", text));
     return std::chrono::duration_cast<std::chrono::minutes>(*here - *there);
-}
-
-MilliGal computed_tide(UtcTime time, const tide::Station& at) {
-    return tide::direct_tide(time, at);
 }
 
 gravimeter::TableOptions table_options(const ImportOptions& options) {
@@ -59,7 +55,8 @@ void import_files(const ImportOptions& options) {
     print_warnings(gravimeter::make_table_names(files));
     const std::vector<gravimeter::Stay> stays = gravimeter::find_stays(files);
     for (const gravimeter::GravimeterFile& file : files)
-        print_warnings(gravimeter::contradictions(file, computed_tide), file.path.string() + ": ");
+        print_warnings(gravimeter::contradictions(file, tide::usual_tide),
+                       file.path.string() + ": ");
     text::write_together(options.out, gravimeter::survey_tables(files, stays, table));
 
     bool is_damaged = false;

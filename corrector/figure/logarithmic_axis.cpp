@@ -18,22 +18,29 @@ template <class Use>
 void for_each_row(const Figure& figure, const std::string& source, const Use& use) {
     std::string_view rest = figure.data;
     std::vector<double> row;
+    bool is_wanted = source == source_of(figure.name, 0);
     for (std::size_t block = 0, empty = 0; !rest.empty();) {
         const std::string_view line = rest.substr(0, rest.find('\n'));
         rest.remove_prefix(std::min(rest.size(), line.size() + 1));
         empty = line.empty() ? empty + 1 : 0;
-        if (empty == 2) ++block;
-        if (line.empty() || line[0] == '#' || source != source_of(figure.name, block)) continue;
+        if (empty == 2) is_wanted = source == source_of(figure.name, ++block);
+        if (line.empty() || line[0] == '#' || !is_wanted) continue;
         row.clear();
         double number = 0.0;
-        for (const char* at = line.data(); at < line.data() + line.size(); ++at) {
-            const auto end = std::from_chars(at, line.data() + line.size(), number).ptr;
-            if (end == at) break;
+        const char* const line_end = line.data() + line.size();
+        for (const char* at = line.data(); at < line_end; ++at) {  // a blank follows each number
+            const char* const number_end = std::from_chars(at, line_end, number).ptr;
+            if (number_end == at || number_end == line_end || *number_end != ' ') break;
             row.push_back(number);
-            at = end;
+            at = number_end;
         }
         use(row);
     }
+}
+
+bool follows_from_data(const Axis& axis) {
+    return axis.scale == Scale::logarithmic &&
+           (std::isnan(axis.range[0]) || std::isnan(axis.range[1]));
 }
 
 /// The powers of ten around values.
@@ -46,8 +53,9 @@ public:
     }
 
     void set(Axis& axis) const {
-        if (axis.scale != Scale::logarithmic || !std::isnan(axis.range[0]) || low_ > high_) return;
-        axis.range = {std::pow(10.0, low_), std::pow(10.0, std::max(high_, low_ + 1.0))};
+        if (!follows_from_data(axis) || low_ > high_) return;
+        if (std::isnan(axis.range[0])) axis.range[0] = std::pow(10.0, low_);
+        if (std::isnan(axis.range[1])) axis.range[1] = std::pow(10.0, std::max(high_, low_ + 1.0));
     }
 
 private:
@@ -58,20 +66,25 @@ private:
 
 void set_decades(Panel& panel, const Figure& figure) {
     Decades x, y, colours;
-    if (std::ranges::none_of(std::array{panel.x, panel.y, panel.colours}, [](const Axis& axis) {
-            return axis.scale == Scale::logarithmic && std::isnan(axis.range[0]);
-        }))
+    if (std::ranges::none_of(std::array{panel.x, panel.y, panel.colours}, follows_from_data))
         return;
-    for (const Series& series : panel.series)
+    for (const Series& series : panel.series) {
+        // The columns of a look: figure.hpp.
+        const std::size_t count = series.columns.size();
+        const bool has_u = count == 3 && series.look != Look::area;
+        const std::size_t values_of_y = series.look == Look::tiles || series.is_right ? 0
+                                        : has_u                                       ? 2
+                                                                                      : count;
         for_each_row(figure, series.source, [&](const std::vector<double>& row) {
             const auto value = [&](std::size_t column) {
                 const auto place = static_cast<std::size_t>(series.columns[column] - 1);
                 return place < row.size() ? row[place] : kFromData;
             };
             x.add(value(0));
-            for (std::size_t k = 1; k < series.columns.size(); ++k) y.add(value(k));
-            if (series.colour == Colour::by_value) colours.add(value(series.columns.size() - 1));
+            for (std::size_t k = 1; k < values_of_y; ++k) y.add(value(k));
+            if (series.colour == Colour::by_value) colours.add(value(count - 1));
         });
+    }
     x.set(panel.x);
     y.set(panel.y);
     colours.set(panel.colours);

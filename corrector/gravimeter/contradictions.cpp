@@ -26,6 +26,11 @@ text::Message tide_remark(const GravimeterFile& file, const tide::TideOf& tide_o
             "(line {}): it is still in them. Use --tide remove, so that the tide is computed "
             "later",
             doubt->size_mgal, line_of[doubt->index]);
+    if (doubt->has_other_sign)
+        return text::message(
+            "the tide in the file has the other sign: it differs from the computed one by up to "
+            "{:.3f} mGal (line {}). It is used as it is",
+            doubt->size_mgal, line_of[doubt->index]);
     return text::message(
         "the tide in the file is that of another time or place, by up to {:.3f} mGal (line "
         "{}){}: check {}. Times and positions are used as they are",

@@ -2,7 +2,7 @@
 /// @file
 /// Is a tide that came with readings the tide of their times and places?
 ///
-///     if (const auto doubt = find_doubt(tides, kTideOfAnyTable, computed))
+///     if (const auto doubt = find_doubt(tides, kTideOfAnyTable, usual_tide))
 ///         warn(doubt->size_mgal, tides[doubt->index], doubt->remedy);
 
 #include <cstddef>
@@ -17,6 +17,9 @@ namespace a351::corrector::tide {
 
 /// Computes the effect of the tide on gravity.
 using TideOf = std::function<MilliGal(UtcTime, const Station&)>;
+
+/// Returns direct_tide() with its usual factors.
+[[nodiscard]] MilliGal usual_tide(UtcTime time, const Station& station);
 
 /// The tide that is used for a reading, as effect on gravity, and where it was read.
 struct UsedTide {
@@ -34,17 +37,21 @@ struct Agreement {
 /// Models and factors of the instruments differ by up to 0.005 mGal (gravimeter-format.md), and a tide
 /// of another hour by more than 0.02 within a few readings.
 inline constexpr Agreement kTideOfInstrument{0.01, true};
-/// Chosen: three times as much, with room for ocean loading.  The permanent tide of a table is not
-/// known.  The tide of another sign or of some hours later differs by 0.07 to 0.2 mGal.
+/// Chosen: three times the limit of the instruments, with room for ocean loading.  The permanent tide
+/// of a table is not known.  The tide of another sign or of some hours later differs by 0.07 to 0.2
+/// mGal.
 inline constexpr Agreement kTideOfAnyTable{0.03, false};
 
 /// A tide that does not agree with the computed one.
 struct Doubt {
-    std::size_t index = 0;   ///< The tide that differs most.
-    double size_mgal = 0.0;  ///< Its difference; positive.
-    bool is_zero = false;    ///< The tide is 0 throughout.
-    /// What would make the tides agree: half hours up to a day, the other sign of the tide or of a
-    /// coordinate.  Empty: nothing of this, or times more than an hour apart nearly as well.
+    std::size_t index = 0;        ///< The tide that differs most.
+    double size_mgal = 0.0;       ///< Its difference; positive.
+    bool is_zero = false;         ///< The tide is 0 throughout.
+    bool has_other_sign = false;  ///< The tide agrees with the other sign.
+    /// What makes the tides agree, to be added to a sentence: half hours up to a day, or the other
+    /// sign of the tide or of a coordinate.  Empty if nothing of this does, if times more than an
+    /// hour apart fit nearly as well, or if the tide varies by less than 0.05 mGal.  With ocean
+    /// loading of 0.02 mGal the hours may be wrong.
     text::Message remedy = {};
 };
 

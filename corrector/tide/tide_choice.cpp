@@ -153,9 +153,7 @@ text::Message doubtful_tide(const std::vector<reading::SurveyRow>& rows,
             {row.time, {site->latitude, site->longitude, site->altitude}, row.tide.value()});
         row_of.push_back(&row);
     }
-    const auto doubt = find_doubt(tides, kTideOfAnyTable, [](UtcTime time, const Station& station) {
-        return direct_tide(time, station);
-    });
+    const auto doubt = find_doubt(tides, kTideOfAnyTable, usual_tide);
     if (!doubt) return {};
     if (doubt->is_zero)
         return text::message(

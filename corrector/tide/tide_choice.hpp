@@ -105,7 +105,8 @@ void apply_tide(std::vector<reading::SurveyRow>& rows, const std::vector<text::S
                 const Choice& choice, reading::DayRecord* day = nullptr);
 
 /// Returns a warning if a tide that is not computed, `given` or a series, is not that of the times and
-/// places of the rows (find_doubt() with kTideOfAnyTable): readings of an hour or two show nothing.
+/// places of the rows (find_doubt() with kTideOfAnyTable), or 0 throughout.  Readings of an hour or
+/// two show nothing, because the mean difference is left out.
 /// @param rows  after apply_tide(); those of sites without a position are left out.
 [[nodiscard]] text::Message doubtful_tide(const std::vector<reading::SurveyRow>& rows,
                                           const std::vector<text::Site>& sites,

@@ -178,11 +178,11 @@ void add_resume(CLI::App& app, Arguments& a) {
 }
 
 void add_rename(CLI::App& app, Arguments& a) {
-    auto* rename = app.add_subcommand("rename", "Corrects the site of a stay.");
+    auto* rename = app.add_subcommand("rename", "Corrects the site of a stay: rename [STAY] SITE.");
     rename
         ->add_option("SITE", a.stay_and_site,
-                     "Correct benchmark; in front of it the key of the stay, from list (default: "
-                     "the running or last one)")
+                     "Key of the stay, from list (default: the running or last one), and the "
+                     "correct benchmark")
         ->type_name("")
         ->expected(1, 2)
         ->required();

@@ -14,7 +14,7 @@ using Catch::Matchers::ContainsSubstring;
 }
 #endif
 
-// It searches a text in version 2, and an element of a list in version 3.
+// The name Contains searches a text in version 2, and an element of a list in version 3.
 #pragma GCC poison Contains
 
 using Catch::Matchers::EndsWith;

@@ -177,7 +177,9 @@ TEST_CASE("a logarithmic axis of less than three decades has ticks of our own") 
     panel.series.clear();
     figure.plot("x y low high", "0.01 30 NaN 0 \n\n0.02 0.4 0.02 500 \n",
                 {.columns = {1, 2, 3, 4}});
-    figure.plot("x y low high", "0.01 1 7 \n", {.colour = Colour::by_value, .columns = {1, 2, 3}});
+    figure.plot("x y z", "0.01 1 7 \n", {.colour = Colour::by_value, .columns = {1, 2, 3}});
+    figure.plot("x y u", "0.01 1 1e6 \n", {.look = Look::bars, .columns = {1, 2, 3}});
+    figure.plot("x right", "0.01 1e6 \n", {.is_right = true});
     const std::string script = script_of(figure);
     CHECK_THAT(
         script,
