@@ -37,7 +37,7 @@ TEST_CASE("a linear model gives the differences that it gives without both refer
     auto rows = noisy_day(3);
     const SurveyCorrection all = corrected(rows, "t-drift");
     CHECK(all.differences.size() == 8 * 7 / 2);
-    const StationDifference& found = difference_of(all, "S1", "S4");
+    const StationDifference found = difference_of(all, "S1", "S4");
     CHECK(found.reference->value() == Approx(21.0));
     for (SurveyRow& row : rows)
         if (row.site == "S1" || row.site == "S4") row.reference.reset();
