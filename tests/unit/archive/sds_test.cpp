@@ -1,8 +1,9 @@
 #include "protocol/archive/sds.hpp"
 
+#include <fmt/core.h>
+
 #include <cctype>
 #include <chrono>
-#include <cstdio>
 #include <system_error>
 #include "tests/support/catch.hpp"
 
@@ -61,9 +62,8 @@ TEST_CASE("every day from 1970 to 2099 has its day file and reads back as the sa
         int of_year = 0;
         for (int month = 1; month <= 12; ++month) {
             for (int day = 1; day <= in_year[month - 1]; ++day, ++days) {
-                char date[32], name[32];
-                std::snprintf(date, sizeof date, "%04d-%02d-%02dT00:00:00Z", year, month, day);
-                std::snprintf(name, sizeof name, ".%04d.%03d", year, ++of_year);
+                const auto date = fmt::format("{:04}-{:02}-{:02}T00:00:00Z", year, month, day);
+                const auto name = fmt::format(".{:04}.{:03}", year, ++of_year);
                 REQUIRE(to_rfc3339(midnight, 0) == date);
                 REQUIRE(parse_rfc3339(date) == midnight);
                 const UtcTime next = midnight + std::chrono::hours(24);

@@ -77,7 +77,9 @@ TEST_CASE("the word sum sees every flipped bit, and of two all but those that ca
     std::size_t derived = 0;
     const std::size_t n = words.size() / 2 - 1;
     for (unsigned bit = 0; bit < 16; ++bit) {
-        const auto is_one = [&](std::size_t word) { return word_at(words, 2 * word) >> bit & 1U; };
+        const auto is_one = [&](std::size_t word) {
+            return (unsigned{word_at(words, 2 * word)} >> bit) & 1U;
+        };
         std::size_t ones = 0;
         for (std::size_t word = 0; word < n; ++word) ones += is_one(word);
         derived +=
