@@ -34,7 +34,7 @@ bool continues(const Stay& stay, const Reading& next) {
     // An average cannot be of readings with and without the tide.
     return last.site == next.site && !begins_loop(last, next) &&
            last.tide_correction.has_value() == next.tide_correction.has_value() &&
-           next.time - last.time <= kLongestPause;
+           std::chrono::duration<double>(seconds_between(last.time, next.time)) <= kLongestPause;
 }
 
 double mean(const std::vector<double>& values) {

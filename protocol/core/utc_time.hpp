@@ -67,13 +67,17 @@ using RawTime = RawClock::time_point;
 /// @param decimals  less than 0 counts as 0, more than 9 as 9; with 0 the text has no point.
 [[nodiscard]] std::string to_rfc3339(UtcTime time, int decimals = 0);
 
-/// Returns the seconds from `from` to `to`; exact to 1 ns up to 104 days.
+/// Returns the seconds between any two instants; exact to 1 ns up to 104 days.
 ///
 /// The value is negative if `to` is earlier.  Beyond 104 days the steps of a double are wider than
 /// 1 ns: 0.12 us at 30 years.  A subtraction of the instants is exact: it gives whole nanoseconds.
-/// @param from, to  less than 292 years apart; not checked.
 [[nodiscard]] constexpr double seconds_between(UtcTime from, UtcTime to) noexcept {
-    return std::chrono::duration<double>(to - from).count();
+    constexpr double kNanoseconds = 1e9;
+    const auto begin = from.time_since_epoch().count(), end = to.time_since_epoch().count();
+    // More than 292 years, as between a mistyped year and today, are not a number of nanoseconds.
+    if (UtcTime::rep difference{}; !__builtin_sub_overflow(end, begin, &difference))
+        return static_cast<double>(difference) / kNanoseconds;
+    return (static_cast<double>(end) - static_cast<double>(begin)) / kNanoseconds;
 }
 
 /// Returns the nearest whole number of nanoseconds, halves away from zero, up to 52 days.  Beyond

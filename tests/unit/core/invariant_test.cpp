@@ -34,6 +34,7 @@ TEST_CASE("a law that holds does nothing, a broken one says it in one line and a
     CHECK(WIFSIGNALED(status));
     CHECK(WTERMSIG(status) == SIGABRT);
     CHECK(std::ranges::count(line, '\n') == 1);
-    CHECK(line.find("not true that one is two (tests/unit/core/invariant_test.cpp:") !=
-          std::string::npos);
+    // Release builds leave out the directory of the build.
+    CHECK_THAT(line, ContainsSubstring("not true that one is two (") &&
+                         ContainsSubstring("tests/unit/core/invariant_test.cpp:"));
 }

@@ -35,6 +35,15 @@ TEST_CASE("the default time zone applies only to a time without a zone") {
     CHECK(parse_rfc3339_in_zone("2017-07-15T23:42:12Z", hours(9)) == expected);
 }
 
+TEST_CASE("the seconds between any two instants are a number, also over more than 292 years") {
+    const UtcTime early = *parse_rfc3339("1690-03-01T00:00:00Z"),
+                  late = *parse_rfc3339("2020-03-01T00:00:00Z");
+    constexpr double kDays = 120530.0;
+    CHECK(seconds_between(early, late) == Approx(kDays * 86400.0).epsilon(1e-12));
+    CHECK(seconds_between(late, early) == Approx(-kDays * 86400.0).epsilon(1e-12));
+    CHECK(seconds_between(late, late + Nanoseconds(1)) == 1e-9);
+}
+
 TEST_CASE("a time is unchanged after writing and reading") {
     const UtcTime time =
         GENERATE(UtcTime(nanoseconds(0)), UtcTime(nanoseconds(-1)),

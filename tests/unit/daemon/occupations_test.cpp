@@ -332,7 +332,7 @@ TEST_CASE_METHOD(Survey, "a stay keeps its own time when the clock is set back b
     recorder.last = minute(50);  // An order to several boxes has the time by the clock.
     CHECK(mentions(occupations.stop({}, minute(50 - 60)), "08:50:00"));
     REQUIRE(occupations.list().size() == 1);
-    const auto& set_ups = occupations.list().front().set_ups;
+    const auto set_ups = occupations.list().front().set_ups;
     REQUIRE(set_ups.size() == 2);
     CHECK(set_ups.back().start == minute(45));
     CHECK(set_ups.back().end == minute(50));

@@ -46,7 +46,8 @@ TEST_CASE("what is said of a face stays with its set-up when the stay is re-time
         event_of("setup", "09:20", {{"face", "up"}, {"planned_face", "+"}}), stop("09:30")};
     const auto expected = [&] {
         std::vector<int> faces;
-        for (const auto& set_up : occupations_of(events).at(0).set_ups)
+        const auto stays = occupations_of(events);
+        for (const auto& set_up : stays.at(0).set_ups)
             faces.push_back(set_up.face.expected().value_or(0));
         return faces;
     };
