@@ -168,9 +168,12 @@ private:
         const auto client = socket.remote_endpoint(error);
         if (error) return;
         const auto stream = std::make_shared<beast::tcp_stream>(std::move(socket));
+        // The seat does not own the stream: seats_ ends after io_, which a stream needs.
         const auto place = seats_.seat({.address = client.address().to_string(),
                                         .is_loopback = client.address().is_loopback(),
-                                        .leave = [stream] { stream->close(); }});
+                                        .leave = [seated = std::weak_ptr(stream)] {
+                                            if (const auto open = seated.lock()) open->close();
+                                        }});
         if (place != seats_.end()) {
             asio::co_spawn(io_, hold_seat(stream, place), asio::detached);
         } else if (turned_away_ < kMostTurnedAway) {
