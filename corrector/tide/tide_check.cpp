@@ -75,7 +75,7 @@ std::optional<Change> find_change(const std::vector<UsedTide>& tides, std::size_
 
     const Fit sign =
         best_of({fit_of({{}, -1.0}), fit_of({{}, 1.0, -1.0}), fit_of({{}, 1.0, 1.0, -1.0})});
-    // The next half hours of the best one fit alike.
+    // The shifts beside the best one fit nearly as well.
     constexpr std::chrono::minutes kStep{30}, kNear{60}, kDay{24 * 60};
     std::vector<Fit> shifts;
     for (auto shift = -kDay; shift <= kDay; shift += kStep)

@@ -48,10 +48,10 @@ struct Doubt {
     double size_mgal = 0.0;       ///< Its difference; positive.
     bool is_zero = false;         ///< The tide is 0 throughout.
     bool has_other_sign = false;  ///< The tide agrees with the other sign.
-    /// What makes the tides agree, to be added to a sentence: half hours up to a day, or the other
-    /// sign of the tide or of a coordinate.  Empty if nothing of this does, if times more than an
-    /// hour apart fit nearly as well, or if the tide varies by less than 0.05 mGal.  With ocean
-    /// loading of 0.02 mGal the hours may be wrong.
+    /// The end of a sentence.  It names what makes the tides agree: a shift of the times by half
+    /// hours, up to a day, or the other sign of the tide or of a coordinate.  Empty if nothing of this
+    /// does, if shifts more than an hour apart fit nearly as well, or if the tide varies by less than
+    /// 0.05 mGal.  With ocean loading of 0.02 mGal the hours may be wrong.
     text::Message remedy = {};
 };
 

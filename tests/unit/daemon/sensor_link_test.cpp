@@ -257,8 +257,9 @@ TEST_CASE_METHOD(FastLinkRig, "a port that disappears is named and searched for 
     std::filesystem::remove(name);  // The system then has another reason, which is not shown.
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
     CHECK(link.status().trouble == said);
+    const auto sessions_before = link.status().sessions;
     std::filesystem::create_symlink(sensor.path(), name);
-    REQUIRE(eventually([&] { return link.status().sessions == 2; }));
+    REQUIRE(eventually([&] { return link.status().sessions > sessions_before; }));
     link.stop();
 }
 

@@ -67,7 +67,7 @@ TEST_CASE("one wrong tide among many is the worst, and no shift of the times") {
         CHECK(doubt->index == 8);
         CHECK(doubt->size_mgal == Approx(0.05).margin(0.001));
         CHECK(doubt->remedy.empty());
-        // Of so many tides a part is tried; the change must fit all.
+        // The search tries only a part of so many tides.  Its result must fit all of them.
         auto late = day(std::chrono::hours(9));
         late[8].tide_mgal += 0.05;
         CHECK(remedy(late, agreement).empty());
