@@ -2,6 +2,7 @@
 /// a351-correct: from records and averages to gravity.
 
 #include <fmt/core.h>
+#include <malloc.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -39,6 +40,14 @@ std::string about_removed(int argc, char** argv) {
     return text;
 }
 
+/// Keeps memory that was freed for the next use.  Otherwise large pieces go back to the system, and
+/// the next ones are cleared page by page.
+void keep_freed_memory() {
+    constexpr int kLarge = 32 << 20;  // bytes; the most that glibc takes
+    ::mallopt(M_MMAP_THRESHOLD, kLarge);
+    ::mallopt(M_TRIM_THRESHOLD, 8 * kLarge);
+}
+
 int report(std::string message, int status) {
     std::replace(message.begin(), message.end(), '\n', ' ');
     std::cerr << "a351-correct: " << message << '\n';
@@ -50,6 +59,7 @@ int report(std::string message, int status) {
 int main(int argc, char** argv) {
     using namespace a351;
     using namespace a351::corrector;
+    keep_freed_memory();
     text::write_in(text::language_of_environment());
     CLI::App program("Corrects the readings of an M-A351 accelerometer to gravity.",
                      "a351-correct");

