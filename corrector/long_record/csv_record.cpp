@@ -3,12 +3,17 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
+#include <iterator>
+#include <string_view>
+#include <utility>
 
 #include "corrector/long_record/stretch_builder.hpp"
 #include "corrector/reading/smoother.hpp"
 #include "protocol/core/input_error.hpp"
+#include "protocol/core/sensor_limits.hpp"
 #include "protocol/signal/median.hpp"
 #include "protocol/text/csv.hpp"
 #include "protocol/text/csv_reader.hpp"
@@ -163,6 +168,27 @@ private:
     std::size_t first_line_ = 0;  ///< Line of the first of these rows.
 };
 
+/// Refuses a norm in another unit than mGal: its median is gravity in that unit, and it scatters by
+/// less than 0.01 mGal (in m/s2 by less than 1000 mGal).  The noise of a sensor at 20 s is more.
+void refuse_other_unit(const LongRecord& record) {
+    constexpr double kLeastScatter_mgal = 0.01;
+    constexpr std::array<std::pair<std::string_view, double>, 3> kUnits{
+        {{"m/s2", kMilliGalPerMps2}, {"Gal", kMilliGalPerGal}, {"g", kMilliGalPerStandardGravity}}};
+    std::vector<double> values;
+    for (const RecordStretch& stretch : record.stretches)
+        std::ranges::copy_if(stretch.quantity, std::back_inserter(values),
+                             [](double value) { return !std::isnan(value); });
+    if (values.empty()) return;
+    const double median = signal::median(values);
+    for (double& value : values) value = std::abs(value - median);
+    if (signal::median(std::move(values)) >= kLeastScatter_mgal) return;
+    for (const auto& [unit, mgal] : kUnits)
+        if (is_norm_believable(to_standard_gravity(MilliGal(median * mgal))))
+            throw InputError(fmt::format(
+                "{}: acceleration_mgal: the median is {:.6g}, which is gravity in {}; allowed: mGal",
+                record.source.string(), median, unit));
+}
+
 }  // namespace
 
 std::optional<int> record_stages(double step_s) {
@@ -204,6 +230,7 @@ LongRecord read_csv_record(const std::filesystem::path& file, const RecordWindow
         if (count % kBlockRows == 0) progress(rows.bytes_read() / kMegabyte, megabytes);
     }
     stream.finish();
+    if (rows.axes() == 1) refuse_other_unit(record);
     record.inputs.push_back(text::describe_input("record", file));
     return record;
 }

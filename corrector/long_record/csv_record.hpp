@@ -26,6 +26,7 @@ namespace a351::corrector::long_record {
 /// - With any column of an axis, all three are needed, and acceleration_mgal is not used.  Their
 ///   norm is taken after the decimation.
 /// - Numbers in the time column are taken as seconds since 1970.
+/// - acceleration_mgal may count from any zero, but not be gravity in m/s2, Gal or g.
 ///
 /// The step is the median of the first 1000 rows.  Time stamps may scatter: a row less than half a
 /// step after another is the next row.  Rows that are missing here and there do not change the step
@@ -34,8 +35,8 @@ namespace a351::corrector::long_record {
 /// @param window    part to be read.
 /// @param progress  called with the megabytes done and in all.
 /// @throws InputError  if a column is missing, a cell is no number or out of range, times do not
-///                     ascend, there are fewer than two rows, or rows have another step; with file
-///                     and line.
+///                     ascend, there are fewer than two rows, rows have another step, or the
+///                     acceleration is in another unit; with file and line, or the median.
 [[nodiscard]] LongRecord read_csv_record(const std::filesystem::path& file,
                                          const RecordWindow& window,
                                          const archive_series::Progress& progress);

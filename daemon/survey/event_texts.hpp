@@ -2,6 +2,7 @@
 /// @file
 /// Texts of the events that the operator's requests become.
 
+#include <chrono>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -9,6 +10,8 @@
 #include "daemon/survey/occupations.hpp"
 
 namespace a351::daemon::survey {
+
+using Minutes = std::chrono::duration<double, std::ratio<60>>;
 
 /// Returns an instant as an operator reads it.
 inline std::string shown(UtcTime time) { return to_rfc3339(time, 1); }

@@ -9,8 +9,6 @@
 namespace a351::daemon::survey {
 namespace {
 
-using Minutes = std::chrono::duration<double, std::ratio<60>>;
-
 text::Message with_times(const events::Occupation& one) {
     return text::message("{}, {} to {}", named(one), shown(one.set_ups.front().start),
                          shown(one.set_ups.back().end));

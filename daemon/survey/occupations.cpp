@@ -204,7 +204,6 @@ Outcome Occupations::stop(const Remark& remark, std::optional<UtcTime> at) {
         message += text::message("; {} of {} planned set-ups", made, planned_set_ups());
     }
     const text::Message clock = remark_on_clock();
-    using Minutes = std::chrono::duration<double, std::ratio<60>>;
     // A stop when the countdown shows zero keeps the plan.
     constexpr std::chrono::seconds kShorter{3};  // 0.05 min, below the last digit.
     const Nanoseconds stay = utc - running()->start;
