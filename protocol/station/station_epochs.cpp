@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <sstream>
 #include <string>
 
@@ -22,6 +23,16 @@ std::string content_of(pugi::xml_node channel) {
     return text.str();
 }
 
+/// Returns an element of the position; a station of another program can lack it.
+pugi::xml_node child_in_order(pugi::xml_node station, const std::string& name) {
+    constexpr std::array kOrder{"Latitude", "Longitude", "Elevation", "Site", "Channel"};
+    if (const auto child = station.child(name.c_str())) return child;
+    for (auto next = std::ranges::find(kOrder, name); next != kOrder.end(); ++next)
+        if (const auto later = station.child(*next))
+            return station.insert_child_before(name.c_str(), later);
+    return station.append_child(name.c_str());
+}
+
 void set_date(pugi::xml_node node, const char* name, UtcTime date) {
     auto attribute = node.attribute(name);
     if (!attribute) attribute = node.append_attribute(name);
@@ -39,7 +50,7 @@ public:
         for (const char* name : {"Latitude", "Longitude", "Elevation"}) {
             const char* value = fresh.child_value(name);
             if (value == std::string(station.child_value(name))) continue;
-            station.child(name).text().set(value);
+            child_in_order(station, name).text().set(value);
             has_changed_ = true;
         }
         cover_start(station);

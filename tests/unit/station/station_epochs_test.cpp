@@ -89,6 +89,9 @@ TEST_CASE(
     std::string without = first;
     without.erase(without.find("<Latitude>"), std::string("<Latitude>36.106</Latitude>").size());
     CHECK_FALSE(File(without).read().position);
+    const std::string with = extended(without, station);
+    CHECK(File(with).read().position.value().latitude == station.latitude);
+    CHECK(with.find("<Latitude>") < with.find("<Longitude>"));
     // A time before all epochs gets those that are still open.
     CHECK(File(first).read(description().start - 1h).channels.size() == 7);
     for (const auto& text : {std::string(), first.substr(0, first.size() / 2), std::string("<a/>")})
