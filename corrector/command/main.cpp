@@ -41,9 +41,10 @@ std::string about_removed(int argc, char** argv) {
 }
 
 /// Keeps memory that was freed for the next use.  Otherwise large pieces go back to the system, and
-/// the next ones are cleared page by page.
+/// the next ones are cleared page by page.  Those of 1 MB and more still go back: without that a
+/// record of a week needs 125 instead of 90 MB.
 void keep_freed_memory() {
-    constexpr int kLarge = 32 << 20;  // bytes; the most that glibc takes
+    constexpr int kLarge = 1 << 20;  // bytes
     ::mallopt(M_MMAP_THRESHOLD, kLarge);
     ::mallopt(M_TRIM_THRESHOLD, 8 * kLarge);
 }
