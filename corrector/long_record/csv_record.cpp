@@ -169,9 +169,10 @@ private:
 };
 
 /// Refuses a norm in another unit than mGal: its median is gravity in that unit, and it scatters by
-/// less than 0.01 mGal (in m/s2 by less than 1000 mGal).  The noise of a sensor at 20 s is more.
+/// less than 0.01 of it.  In mGal the noise of a sensor at 20 s is ten times as large; in Gal, the
+/// smallest of these units, 0.01 are 10 mGal.
 void refuse_other_unit(const LongRecord& record) {
-    constexpr double kLeastScatter_mgal = 0.01;
+    constexpr double kLeastScatter = 0.01;
     constexpr std::array<std::pair<std::string_view, double>, 3> kUnits{
         {{"m/s2", kMilliGalPerMps2}, {"Gal", kMilliGalPerGal}, {"g", kMilliGalPerStandardGravity}}};
     std::vector<double> values;
@@ -181,11 +182,12 @@ void refuse_other_unit(const LongRecord& record) {
     if (values.empty()) return;
     const double median = signal::median(values);
     for (double& value : values) value = std::abs(value - median);
-    if (signal::median(std::move(values)) >= kLeastScatter_mgal) return;
+    if (signal::median(std::move(values)) >= kLeastScatter) return;
     for (const auto& [unit, mgal] : kUnits)
         if (is_norm_believable(to_standard_gravity(MilliGal(median * mgal))))
             throw InputError(fmt::format(
-                "{}: acceleration_mgal: the median is {:.6g}, which is gravity in {}; allowed: mGal",
+                "{}: acceleration_mgal: the median is {:.6g}, which is gravity in {}; allowed: "
+                "mGal (add a constant if they only look so)",
                 record.source.string(), median, unit));
 }
 

@@ -26,7 +26,8 @@ namespace a351::corrector::long_record {
 /// - With any column of an axis, all three are needed, and acceleration_mgal is not used.  Their
 ///   norm is taken after the decimation.
 /// - Numbers in the time column are taken as seconds since 1970.
-/// - acceleration_mgal may count from any zero, but not be gravity in m/s2, Gal or g.
+/// - acceleration_mgal may count from any zero.  Gravity in m/s2, Gal or g is refused, unless it
+///   scatters (median absolute deviation) by 0.01 of that unit or more.
 ///
 /// The step is the median of the first 1000 rows.  Time stamps may scatter: a row less than half a
 /// step after another is the next row.  Rows that are missing here and there do not change the step

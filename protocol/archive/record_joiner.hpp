@@ -21,8 +21,8 @@ public:
         memory_.clear();
     }
 
-    /// Reserves space for the samples of a file with so many records, when its first record is added.
-    /// A segment of a day that grows without this is copied again and again.
+    /// Reserves space for the samples of so many records, when the next one is added.  A segment of
+    /// a day that grows without this is copied again and again.
     void expect(std::size_t records) { expected_ = records; }
 
     /// Adds a record; one that begins within half a sample of the end of the last one continues it.

@@ -23,7 +23,8 @@ std::string content_of(pugi::xml_node channel) {
     return text.str();
 }
 
-/// Returns an element of the position; a station of another program can lack it.
+/// Returns an element of the position.  One that a file of another program lacks is added, before
+/// Site as in the schema.
 pugi::xml_node child_in_order(pugi::xml_node station, const std::string& name) {
     constexpr std::array kOrder{"Latitude", "Longitude", "Elevation", "Site", "Channel"};
     if (const auto child = station.child(name.c_str())) return child;

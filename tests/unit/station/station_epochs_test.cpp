@@ -92,6 +92,9 @@ TEST_CASE(
     const std::string with = extended(without, station);
     CHECK(File(with).read().position.value().latitude == station.latitude);
     CHECK(with.find("<Latitude>") < with.find("<Longitude>"));
+    const auto longitude = without.find("<Longitude>");
+    without.erase(longitude, without.find("<Site>") - longitude);
+    CHECK(File(extended(without, station)).read().position.value().elevation == station.elevation);
     // A time before all epochs gets those that are still open.
     CHECK(File(first).read(description().start - 1h).channels.size() == 7);
     for (const auto& text : {std::string(), first.substr(0, first.size() / 2), std::string("<a/>")})
