@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "corrector/figure/escaping.hpp"
+#include "corrector/figure/layout.hpp"
 #include "corrector/figure/survey_figures.hpp"
 #include "protocol/core/units.hpp"
 #include "protocol/text/aligned_text.hpp"

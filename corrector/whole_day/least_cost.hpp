@@ -17,6 +17,7 @@
 ///
 /// All functions are pure; searches in several threads do not influence each other.
 
+#include <cmath>
 #include <functional>
 #include <vector>
 
