@@ -1,7 +1,7 @@
 """Brings figures of corrector/accuracy.md up to date: runs the command of a section and writes what it prints into the section.
 
-A section has a heading, sentences, a line `Command: ...`, and in a block the output of the bench without its lines for single days.
-A run replaces line and block.  A section with a table has figures of an earlier program: it is left, and said.
+A section has a heading, sentences, lines `Command: ...`, and below each in a block the output of the bench without its lines for single days.
+A run replaces line and block.
 Date and commit are those of the run; the sources must be committed.
 """
 
@@ -17,7 +17,7 @@ from command_line import command_line
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
 PAGE = TOP / "corrector/accuracy.md"
-COMMAND = re.compile(r"^Command: `(python3 tests/bench/[^`]*)`[^\n]*\n(?:\n```\n.*?\n```\n)?", re.MULTILINE | re.DOTALL)
+COMMAND = re.compile(r"^Command: `((?:python3 tests/bench|build/release/tests)/[^`]*)`[^\n]*\n(?:\n```\n.*?\n```\n)?", re.MULTILINE | re.DOTALL)
 SINGLE_DAY = re.compile(r"\s*(seed |unit )?\d+(:| done)|holds: ")
 
 
@@ -63,11 +63,8 @@ if changed := git("status", "--porcelain", "--", "corrector", "protocol", "sim",
 commit = git("rev-parse", "--short=8", "HEAD")
 for heading in headings:
     before, begin, section = PAGE.read_text().partition(f"## {heading}\n")
-    own = section[:section.find("\n## ") + 1 or None]
-    if "\n| --- |" in own:
-        print(f"{heading}: left, because it has a table")
-    elif command := COMMAND.search(own):
-        now = measured(command[1], commit)
-        before, begin, section = PAGE.read_text().partition(f"## {heading}\n")  # The run took long: others may have written.
-        PAGE.write_text(before + begin + COMMAND.sub(lambda _: now, section, count=1))
+    for command in COMMAND.findall(section[:section.find("\n## ") + 1 or None]):
+        now = measured(command, commit)
+        text = PAGE.read_text()  # The run took long: others may have written.
+        PAGE.write_text(COMMAND.sub(lambda found: now if found[1] == command else found[0], text))  # noqa: B023
         print(f"{heading}: written", flush=True)

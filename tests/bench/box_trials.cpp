@@ -1,18 +1,17 @@
 /// Measures the adjustment of several sensors in one box on simulated days, and the split of the
 /// placement.
 ///
-///     box-trials FIRST_SEED DAYS SENSORS SHARE
+///     box-trials FIRST_SEED DAYS
 ///
-/// SENSORS: 1 to 9.  SHARE: 0 to 1, the true share of the placement's variance that they have in
-/// common.  A day is `tilted` (axis biases of up to 2 Gal, which nobody has measured) with two set-ups
-/// of six minutes in each stay, sensors within +-25 % of the emulator's, and gravity known at No.0,
-/// No.7 and No.12.  The readings are the plant's slow signals once a second, with the sensor's noise
-/// and tilt.  Bursts, ground noise and the thermometer's noise are left out: the decimation removes
-/// them.
+/// Share: the true share of the placement's variance that the sensors have in common.  A day is
+/// `tilted` (axis biases of up to 2 Gal, which nobody has measured) with two set-ups of six minutes in
+/// each stay, sensors within +-25 % of the emulator's, and gravity known at No.0, No.7 and No.12.  The
+/// readings are the plant's slow signals once a second, with the sensor's noise and tilt.  Bursts,
+/// ground noise and the thermometer's noise are left out: the decimation removes them.
 ///
-/// Prints a line for each day, and a last one: the rms error at the unknown stations, the rms of its
-/// uncertainty, their ratio with its 95 % limits from 2000 draws of days, and on how many days the
-/// share was within its 95 % limits.
+/// Prints a line for each day, and one for each box: the rms error at the unknown stations and the rms
+/// of its uncertainty in mGal, their ratio with its 95 % limits from 2000 draws of days, and on how
+/// many days the share was within its 95 % limits.
 
 #include <fmt/core.h>
 
@@ -39,6 +38,8 @@ const std::vector<std::string> kKnown{"No.0", "No.7", "No.12"};
 constexpr std::uint64_t kAnotherSensor = 1'000'000;  // far from the seeds of the first sensors
 constexpr double kHandling_s = 25.0;                 // at both ends, as `design` plans it
 constexpr double kSample_s = 2.0;
+constexpr std::pair<std::size_t, double> kBoxes[] = {
+    {1, 0.0}, {2, 0.0}, {2, 0.5}, {2, 1.0}, {4, 0.0}, {4, 0.5}, {4, 1.0}};  // sensors, share
 
 sim::scenario::Scenario scenario_of(std::uint64_t box, double share) {
     return sim::scenario::parse_scenario(
@@ -166,17 +167,8 @@ double rms_of(const std::vector<Trial>& trials, std::vector<double> Trial::*valu
     return std::sqrt(squares / count);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-    if (argc != 5) {
-        fmt::print(stderr, "usage: box-trials FIRST_SEED DAYS SENSORS SHARE\n");
-        return 2;
-    }
-    const std::uint64_t first = std::strtoull(argv[1], nullptr, 10);
-    const std::uint64_t days = std::strtoull(argv[2], nullptr, 10);
-    const auto sensors = static_cast<std::size_t>(std::strtoull(argv[3], nullptr, 10));
-    const double share = std::strtod(argv[4], nullptr);
+/// Prints the row of a box.
+void show(std::uint64_t first, std::uint64_t days, std::size_t sensors, double share) {
     std::vector<Trial> trials;
     for (std::uint64_t seed = first; seed < first + days; ++seed) {
         trials.push_back(try_box(seed, sensors, share));
@@ -196,10 +188,26 @@ int main(int argc, char** argv) {
     std::ranges::sort(errors);
     std::ranges::sort(ratios);
     const double error = rms_of(trials, &Trial::errors_mgal), u = rms_of(trials, &Trial::u_mgal);
+    fmt::print("{:7} {:>6} {:5.2f} ({:.2f} to {:.2f}) {:9.2f} {:5.2f} ({:.2f} to {:.2f}) {:>13}\n",
+               sensors, sensors > 1 ? fmt::format("{}", share) : "-", error, errors[49],
+               errors[1949], u, error / u, ratios[49], ratios[1949],
+               sensors > 1
+                   ? fmt::format("{}", std::ranges::count(trials, true, &Trial::is_share_inside))
+                   : "-");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    if (argc != 3) {
+        fmt::print(stderr, "usage: box-trials FIRST_SEED DAYS\n");
+        return 2;
+    }
+    const std::uint64_t first = std::strtoull(argv[1], nullptr, 10);
+    const std::uint64_t days = std::strtoull(argv[2], nullptr, 10);
     fmt::print(
-        "{} sensors, share {}: {} days from {}, rms error {:.2f} mGal ({:.2f} to {:.2f}), rms of u "
-        "{:.2f}, ratio {:.2f} ({:.2f} to {:.2f}), share inside on {} days\n",
-        sensors, share, trials.size(), first, error, errors[49], errors[1949], u, error / u,
-        ratios[49], ratios[1949], std::ranges::count(trials, true, &Trial::is_share_inside));
+        "{} days\nsensors  share    rms error, mGal  rms of u          error / u  share inside\n",
+        days);
+    for (const auto& [sensors, share] : kBoxes) show(first, days, sensors, share);
     return 0;
 }

@@ -68,7 +68,7 @@ def main():
             for seed, day in zip(seeds, pool.map(lambda seed: measure(scratch, slope, seed), seeds)):
                 days.append(day)
                 value, error = day["with"]["slope"]
-                print(f"{slope:g} mGal/degC, seed {seed}: error with {day['with']['error']:.3f}, without {day['without']['error']:.3f} "
+                print(f"seed {seed}: {slope:g} mGal/degC: error with {day['with']['error']:.3f}, without {day['without']['error']:.3f} "
                       f"mGal; slope {value:.1f} +- {error:.1f}; effect on the stays {day['effect']:.2f} mGal rms", flush=True)
             change, low, high = ratio(days)
             print(f"{slope:g} mGal/degC, {len(days)} days: " + ", ".join(

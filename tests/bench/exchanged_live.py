@@ -75,7 +75,7 @@ results = []
 with concurrent.futures.ThreadPoolExecutor(AT_ONCE) as pool:
     for seed, start, after_s, sent_s, wrong in pool.map(named, range(first, first + days)):
         results.append((after_s, sent_s, wrong))
-        print(f"{seed}  {start}  {after_s:.1f} s after the exchange, {sent_s:.1f} s after the last silence  {'; '.join(wrong)}", flush=True)
+        print(f"seed {seed}: from {start}, {after_s:.1f} s after the exchange, {sent_s:.1f} s after the last silence  {'; '.join(wrong)}", flush=True)
 late = sum(result[1] > LIMIT_S or bool(result[2]) for result in results)
 print(f"{days} days: named at most {max(r[0] for r in results):.1f} s after the exchange, {max(r[1] for r in results):.1f} s after the "
       f"last silence (limit {LIMIT_S:.0f} s)")

@@ -145,13 +145,13 @@ options = line.parse_args()
 with Scratch() as scratch:
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         results = list(pool.map(lambda seed: look_at(scratch, seed), range(options.first, options.first + options.days)))
-print("exchange at           exchanged, separate, mGal   e/u   apart, mGal   named")
-for times, (ours, separate), ratios, apart, is_named, _ in results:
-    print(f"{' and '.join(f'{at:%H:%M:%S}' for at in times):21} {rms(ours):9.2f} {rms(separate):10.2f} {rms(ratios):12.2f} {apart:12.4f}   {is_named}")
+for k, (times, (ours, separate), ratios, apart, is_named, _) in enumerate(results):
+    print(f"seed {options.first + k}: exchange at {' and '.join(f'{at:%H:%M:%S}' for at in times)}, {rms(ours):.2f} mGal, separate days "
+          f"{rms(separate):.2f} mGal, e/u {rms(ratios):.2f}, apart {apart:.4f} mGal{'' if is_named else ', NOT NAMED'}")
 (ours, u_ours), (separate, _), (ratio, u_ratio) = (rms_by_day(r) for r in ([r[1][0] for r in results], [r[1][1] for r in results], [r[2] for r in results]))
-print(f"{len(results)} days: rms {ours:.3f} +- {u_ours:.3f} mGal with an exchange, "
-      f"{separate:.3f} as two separate days; e/u {ratio:.2f} +- {u_ratio:.2f}; "
-      f"values differ by at most {max(r[3] for r in results):.4f} mGal; other_unit in {sum(r[4] for r in results)} days; in {sum(not r[5] for r in results)} days one unit had too few set-ups")
+print(f"{len(results)} days: rms {ours:.3f} +- {u_ours:.3f} mGal with an exchange, {separate:.3f} as two separate days; e/u {ratio:.2f} +- {u_ratio:.2f}\n"
+      f"values differ by at most {max(r[3] for r in results):.4f} mGal; the exchange is a finding on {sum(r[4] for r in results)} days; "
+      f"on {sum(not r[5] for r in results)} days one unit had too few set-ups")
 # Standard error of the difference of the mean squares, from days, as a difference of the rms.
 squares = [rms(r[1][0]) ** 2 - rms(r[1][1]) ** 2 for r in results]
 both = rms([e for r in results for e in r[1][0]]) + rms([e for r in results for e in r[1][1]])

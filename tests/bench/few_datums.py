@@ -4,18 +4,17 @@ Each seed draws a unit, and its day is simulated for every scenario.
 A351_CALIBRATED=0: without calibrations, whose records take most of the time.
 
 The survey is corrected with the default model.  Errors are those of gravity_mgal in stations.csv at the stations without a
-reference, e/u is rms(error / u_gravity_mgal).  The limits of the means are 95 % bootstrap intervals, drawn by day.
+reference, e/u is rms(error / u_gravity_mgal).
 A calibration has the axis biases of a tilt series and the thermal response of two days, of the same unit.
 """
 
 import collections
 import concurrent.futures
 import os
-import random
 import shutil
 
 from command_line import add_seeds, command_line, end_with
-from simulated_units import TWO_DAYS, VALID_FROM, add_folder, correct, hide_references, kept, measure, rms, simulate
+from simulated_units import TWO_DAYS, VALID_FROM, add_folder, correct, hide_references, kept, measure, rms_by_day, simulate
 from programs import BIN, Scratch, read_json, rows, run
 
 # Scenario and scatter of its units.  Promised errors in mGal for each number of known stations, without and with calibration.
@@ -24,7 +23,6 @@ CELLS = {("tsukuba", 0.25): ({1: 2.9, 2: 1.8, 3: 1.8}, {}), ("tsukuba", 0.6): ({
          ("tilted", 0.25): ({1: 3.6, 2: 2.7, 3: 2.5}, {1: 2.9, 2: 1.8})}
 KNOWN = {1: ["No.0"], 2: ["No.0", "No.7"], 3: ["No.0", "No.7", "No.12"]}
 HONEST_POOLED, HONEST_CELL, LEAST_WITHIN_2U = (0.8, 1.15), (0.65, 1.35), 0.92
-DRAWS = 1000
 
 
 def calibration_of(folder, seed, scatter, days, has_biases):
@@ -70,22 +68,10 @@ def look_at(scratch, seed):
 
 
 def figures(days):
-    """Returns error, e/u and share within 2 u of days, each a list of [error, u]."""
+    """Returns error with its standard error, e/u and share within 2 u of days, each a list of [error, u]."""
     every = [one for day in days for one in day]
-    return (rms(error for error, _ in every), rms(error / u for error, u in every),
+    return (*rms_by_day([error for error, _ in day] for day in days), rms_by_day([error / u for error, u in day] for day in days)[0],
             sum(abs(error) <= 2.0 * u for error, u in every) / len(every))
-
-
-def described(days):
-    """Returns the figures with their 95 % bootstrap intervals as text."""
-    draw = random.Random(1)
-    drawn = [figures(draw.choices(days, k=len(days))) for _ in range(DRAWS)]
-    parts = []
-    for value, name, several in zip(figures(days), ("error", "e/u", "within 2 u"), zip(*drawn)):
-        several = sorted(several)
-        low, high = several[DRAWS // 40], several[-DRAWS // 40]
-        parts.append(f"{name} {value:.2f} ({low:.2f} to {high:.2f})")
-    return ", ".join(parts)
 
 
 failures = []
@@ -100,27 +86,34 @@ line = command_line(__doc__, "few_datums.py 9501-9504")
 add_seeds(line, "9501-9540")
 add_folder(line)
 options = line.parse_args()
-cells, models = collections.defaultdict(list), collections.defaultdict(collections.Counter)
+cells, models = collections.defaultdict(dict), collections.Counter()
 with Scratch() as scratch, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-    store, part = options.folder or scratch, os.environ.get("A351_CALIBRATED", "1")
+    store, part = options.keep or scratch, os.environ.get("A351_CALIBRATED", "1")
     for results in pool.map(lambda seed: kept(store / f"{seed}-{part}.json", lambda: look_at(scratch, seed)), options.seeds):
         for scenario, scatter, known, is_calibrated, model, errors in results:
-            cells[known, is_calibrated, scenario, scatter].append(errors)
-            models[known, is_calibrated, scenario, scatter][model] += 1
-for known in KNOWN:
-    pooled = []
-    for cell in sorted(key for key in cells if key[0] == known):
-        _, is_calibrated, scenario, scatter = cell
-        name = (f"{known} known, {scenario}, units within {100 * scatter:.0f} %, "
-                f"{'with' if is_calibrated else 'without'} calibration")
-        print(f"{name}: {described(cells[cell])}, {len(cells[cell])} days, models {dict(models[cell])}")
-        error, ratio, _ = figures(cells[cell])
-        demand_within(f"{name}, e/u", ratio, *HONEST_CELL)
+            cells[is_calibrated, scenario, scatter].setdefault(known, []).append(errors)
+            models[model] += 1
+
+
+def show(name, days_of):
+    """Prints a row of the table, and returns its figures by number of known stations."""
+    found = {known: figures(days) for known, days in days_of.items()}
+    print(f"{name:46}" + "".join(f"{error:13.2f} +- {u:.2f} {ratio:5.2f}" for error, u, ratio, _ in found.values()), flush=True)
+    return found
+
+
+print(f"{'rms error, mGal, and e/u; known:':46}" + "".join(f"{', '.join(known):>27}" for known in KNOWN.values()))
+for (is_calibrated, scenario, scatter), days_of in cells.items():
+    name = f"{scenario}, units within {100 * scatter:.0f} %{', calibrated' if is_calibrated else ''}"
+    for known, (error, _, ratio, _) in show(name, days_of).items():
+        demand_within(f"{name}, {known} known, e/u", ratio, *HONEST_CELL)
         if (most := CELLS[scenario, scatter][is_calibrated].get(known)) is not None:
-            demand_within(f"{name}, error", error, 0.0, most)
-        pooled += cells[cell]
-    print(f"{known} known, all {len(pooled)} surveys: {described(pooled)}")
-    _, ratio, within = figures(pooled)
+            demand_within(f"{name}, {known} known, error", error, 0.0, most)
+pooled = {known: [day for days_of in cells.values() for day in days_of[known]] for known in KNOWN}
+found = show("all", pooled)
+print(f"{'within 2 u':46}" + "".join(f"{100.0 * within:25.1f} %" for *_, within in found.values()))
+print(f"{len(options.seeds)} units; surveys by model: " + ", ".join(f"{model} {count}" for model, count in models.items()))
+for known, (*_, ratio, within) in found.items():
     demand_within(f"{known} known, e/u", ratio, *HONEST_POOLED)
     demand_within(f"{known} known, within 2 u", within, LEAST_WITHIN_2U, 1.0)
 end_with(failures)

@@ -43,7 +43,7 @@ with Scratch() as scratch, concurrent.futures.ThreadPoolExecutor(os.cpu_count())
         games.append(one)
         made = "; ".join(f"{mistake['name']}{' (noticed)' if mistake['is_noticed'] else '' if mistake['is_said'] else ' (UNSAID)'}"
                          for mistake in one["made"])
-        print(f"{seed} {SCENARIOS[seed % len(SCENARIOS)]}: {one['raw']:.2f} as it stands, {one['amended']:.2f} amended, "
+        print(f"seed {seed}: {SCENARIOS[seed % len(SCENARIOS)]}: {one['raw']:.2f} as it stands, {one['amended']:.2f} amended, "
               f"changed by at most {one['changed']:.1f} u: {made}", flush=True)
         if os.environ.get("A351_SHOW"):
             for finding in one["findings"]:

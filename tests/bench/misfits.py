@@ -16,7 +16,7 @@ import os
 import shutil
 
 from command_line import add_days, at_least, command_line, end_with
-from simulated_units import correct, rms, simulate
+from simulated_units import correct, rms_by_day, simulate
 from programs import TOOLS, Scratch, read_json, rows, run
 
 FALSE_ALARMS = 0.015  # of the bounds: that of the test for a step.
@@ -54,20 +54,22 @@ options = line.parse_args()
 first, ordinary, misfit = options.first, options.days, options.misfit
 failures = []
 with Scratch() as scratch, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+    print("days                curvature  step  tails  said, %  mistakes  either  error, mGal         e/u")
     for name, (_, promised) in DAYS.items():
         count = ordinary if name == "ordinary" else misfit
         days = list(pool.map(lambda seed: look_at(scratch, name, seed), range(first, first + count)))
         share = sum(bool(found) for found, *_ in days) / count
-        kinds = {kind: sum(kind in found for found, *_ in days) for kind in ("curvature", "step", "tails")}
+        curvature, step, tails = (sum(kind in found for found, *_ in days) for kind in ("curvature", "step", "tails"))
         mistaken = sum(is_mistaken for _, is_mistaken, *_ in days)
         either = sum(bool(found) or is_mistaken for found, is_mistaken, *_ in days)
-        errors = [one for *_, day, _ in days for one in day]
-        print(f"{name}: said on {100.0 * share:.1f} % of {count} days {kinds}, mistakes on {mistaken}, either on {either}, "
-              f"error {rms(e for e, _ in errors):.2f} mGal, e/u {rms(e / u for e, u in errors):.2f}", flush=True)
+        (error, of_error), (ratio, of_ratio) = (rms_by_day([one(*station) for station in day] for *_, day, _ in days)
+                                                for one in (lambda e, u: e, lambda e, u: e / u))
+        print(f"{f'{count} {name}':19} {curvature:9} {step:5} {tails:6} {100.0 * share:8.1f} {mistaken:9} {either:7} {error:5.2f} +- {of_error:.2f} "
+              f"{ratio:4.2f} +- {of_ratio:.2f}", flush=True)
         for kind in BOUNDS:
             bounds = [of_day[kind] for *_, of_day in days if of_day]
             if bounds:
-                print(f"the best possible test with {100.0 * FALSE_ALARMS} % false alarms would find {kind} on "
+                print(f"    the best possible test with {100.0 * FALSE_ALARMS} % false alarms would find {kind} on "
                       f"{100.0 * sum(bounds) / len(bounds):.1f} % of {len(bounds)} days", flush=True)
         if name == "ordinary" and share > MOST_FALSE:
             failures.append(f"said on {100.0 * share:.1f} % of ordinary days, promised at most {100.0 * MOST_FALSE:.0f} %")

@@ -3,8 +3,8 @@
 Each seed gives a day of tsukuba, hot-afternoon and roadside with one and two set-ups, of a unit within +-25 %.
 An error is the value against the truth: `day` predicts each reading without the reference of its station, the linear models
 without the reading, `paper` has used it.  A remark is counted by its sentence without its numbers.
-Printed per remark: readings with it, their error rms, that of all others, and the difference, with standard errors from days left
-out in turn.  A remark on the quality of a reading stays only if its readings are worse by more than two standard errors.
+Printed per remark with 20 readings and more: readings with it, their error rms, that of all others, and the difference, with standard
+errors from days left out in turn.  A remark on the quality of a reading stays only if its readings are worse by more than two of them.
 """
 
 import concurrent.futures
@@ -70,11 +70,13 @@ def show(model, days):
             for remark in remarks:
                 counts[remark] = counts.get(remark, 0) + 1
     for remark, count in sorted(counts.items(), key=lambda one: (one[0].split()[0] == "grade", -one[1])):
+        if count < FEWEST:
+            continue
         values = [jackknifed(days, lambda some: rms(errors(some, remark, True))),
                   jackknifed(days, lambda some: rms(errors(some, remark, False))),
                   jackknifed(days, lambda some: rms(errors(some, remark, True)) - rms(errors(some, remark, False)))]
         difference, error = values[2]
-        word = "too few" if count < FEWEST else "WORSE" if difference > 2.0 * error else "not worse"
+        word = "WORSE" if difference > 2.0 * error else "not worse"
         print(f"{count:8}" + "".join(f"  {value:6.2f} +-{error:4.2f}" for value, error in values) + f"  {word}: {remark}", flush=True)
 
 

@@ -95,8 +95,8 @@ def hide_references(day, known, name):
 
 
 def add_folder(line):
-    """Adds the argument FOLDER, where kept() finds results."""
-    line.add_argument("folder", metavar="FOLDER", nargs="?", type=pathlib.Path,
+    """Adds the option --keep, the folder where kept() finds results."""
+    line.add_argument("--keep", metavar="FOLDER", type=pathlib.Path,
                       help="keeps the results of each seed; those found there are not computed again")
 
 
