@@ -16,7 +16,7 @@ import tomllib
 
 from command_line import add_seeds, command_line, end_with
 from simulated_units import add_folder, assumed, correct, hide_references, kept, rms_by_day, simulate_unit, unit_of
-from programs import BIN, TOP, Scratch, read_json, rows, run
+from programs import BIN, TOP, Scratch, instant, read_json, rows, run, write_sites
 
 START, EVERY_MIN = "2017-07-15T23:30:00Z", 35
 ROUND = ("No.0", "No.1", "No.2", "No.3", "No.4", "No.7", "No.5", "No.6", "No.8", "No.9", "No.0")
@@ -39,7 +39,7 @@ sha256 = "0000000000000000000000000000000000000000000000000000000000000000"
 
 
 def instants(count):
-    first = datetime.datetime.fromisoformat(START.replace("Z", "+00:00"))
+    first = instant(START)
     return [first + datetime.timedelta(minutes=EVERY_MIN * k) for k in range(count)]
 
 
@@ -50,7 +50,7 @@ def text_of(time):
 def ambient_at(time):
     """Returns the air temperature in the box at a time of tsukuba, a straight line between its stays."""
     stays = tomllib.loads((TOP / "config" / "scenarios" / "tsukuba.toml").read_text())["occupation"]
-    knots = [(datetime.datetime.fromisoformat(stay["centre_utc"].replace("Z", "+00:00")), stay["ambient_degc"]) for stay in stays]
+    knots = [(instant(stay["centre_utc"]), stay["ambient_degc"]) for stay in stays]
     if time <= knots[0][0]:
         return knots[0][1]
     for (before, low), (after, high) in zip(knots, knots[1:]):
@@ -76,11 +76,8 @@ def expected_u(folder, plan):
     lines = ["site,start_utc,set_ups,minutes_each"]
     lines += [f"{site},{text_of(start)},{set_ups},{minutes_each}" for site, start in zip(visits, instants(len(visits)))]
     (folder / "plan.csv").write_text("\n".join(lines) + "\n")
-    sites = ["site,longitude_deg,latitude_deg,altitude_m,gravity_mgal"]
-    for row in rows(TOP / "tests" / "golden" / "tsukuba" / "sites.csv"):
-        gravity = row["gravity_mgal"] if row["site"] in known else ""
-        sites.append(",".join([row["site"], row["longitude_deg"], row["latitude_deg"], row["altitude_m"], gravity]))
-    (folder / "sites.csv").write_text("\n".join(sites) + "\n")
+    table = rows(TOP / "tests" / "golden" / "tsukuba" / "sites.csv")
+    write_sites(folder / "sites.csv", table, {row["site"]: row["gravity_mgal"] for row in table if row["site"] in known})
     return json.loads(run(BIN / "a351-correct", "design", "plan.csv", "--sites", "sites.csv", "--json", cwd=folder).stdout)["u_mgal"]
 
 

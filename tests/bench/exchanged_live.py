@@ -15,7 +15,7 @@ import time
 from command_line import add_days, command_line, end_with
 import simulated_units  # noqa: F401  finds the modules of tests/system
 from emulated_session import Session, wait_for
-from programs import BIN, Scratch, daemon_status, run
+from programs import BIN, Scratch, daemon_status, events_of, instant, run
 
 SPEED, AT_ONCE, DAY_H = 5, 3, 8.0
 OWN, OTHER = "00000001", "87654321"
@@ -27,7 +27,7 @@ def starts(seed):
     draw = random.Random(f"exchange {seed}")
     with Scratch() as scratch:
         plan = run(BIN / "a351-sim", "plan", "--scenario", "tsukuba", "--out", ".", cwd=scratch).stdout
-    begin = datetime.datetime.fromisoformat(dict(part.split("=", 1) for part in plan.split())["start_utc"].replace("Z", "+00:00"))
+    begin = instant(dict(part.split("=", 1) for part in plan.split())["start_utc"])
     return (begin + datetime.timedelta(hours=draw.uniform(0, DAY_H))).strftime("%Y-%m-%dT%H:%M:%SZ"), draw
 
 
@@ -61,8 +61,7 @@ def named(seed):
         session.daemon.wait(timeout=60)
         session.sim.terminate()
         session.sim.wait(timeout=60)
-        events = [json.loads(line) for file in (scratch / "data" / "events").glob("*.jsonl") for line in file.read_text().splitlines()]
-        if [(event["serial_number"], event["before"]) for event in events if event["type"] == "other_unit"] != [(OTHER, OWN)]:
+        if [(event["serial_number"], event["before"]) for event in events_of(scratch / "data") if event["type"] == "other_unit"] != [(OTHER, OWN)]:
             wrong.append("not one event")
         return seed, start, SPEED * (end - began), SPEED * (end - last_silent[0]), wrong
 

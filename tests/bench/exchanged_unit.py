@@ -16,31 +16,15 @@ import random
 import re
 import shutil
 import statistics
-import struct
 
 from command_line import add_days, command_line
 from simulated_units import rms, rms_by_day, simulate
-from programs import BIN, Scratch, read_json, rows, run
+from mseed_records import records
+from programs import Scratch, correct_survey, events_of, instant, read_json, rows
 
 SERIALS = ("00000001", "00000777")
 BIAS_MGAL = 5000.0  # 5 mg; units of this family differ by 2 to 50 mg.
 UTC = datetime.timezone.utc
-
-
-def instant(text):
-    return datetime.datetime.fromisoformat(text[:26].rstrip("Z") + "+00:00")
-
-
-def records(data):
-    """Yields the records of miniSEED 2 with their first and last time."""
-    at = 0
-    while at < len(data):
-        year, day, hour, minute, second, _, fraction, count, factor, multiplier = struct.unpack_from(">HHBBBBHHhh", data, at + 20)
-        start = datetime.datetime(year, 1, 1, hour, minute, second, 100 * fraction, UTC) + datetime.timedelta(days=day - 1)
-        rate = (factor if factor > 0 else -1.0 / factor) * (multiplier if multiplier > 0 else -1.0 / multiplier)
-        length = 1 << data[at + 54]  # Blockette 1000 is the first.
-        yield data[at:at + length], start, start + datetime.timedelta(seconds=(count - 1) / rate)
-        at += length
 
 
 def copy_archive(day, root, is_wanted):
@@ -50,11 +34,6 @@ def copy_archive(day, root, is_wanted):
         target.parent.mkdir(parents=True, exist_ok=True)
         with open(target, "ab") as out:
             out.write(kept)
-
-
-def events(day, is_wanted):
-    return [event for file in sorted((day / "events").glob("*.jsonl"))
-            for event in map(json.loads, file.read_text().splitlines()) if is_wanted(instant(event["utc"]))]
 
 
 def write_root(root, log, metadata, day):
@@ -90,8 +69,8 @@ def exchanged(days, scratch, times):
     for k, (begin, end) in enumerate(zip(limits, limits[1:])):
         unit, day = k % 2, days[k % 2]
         for folder in (root, alone[unit]):
-            copy_archive(day, folder, lambda start, last: begin <= start and last < end)
-        stays = events(day, lambda utc: begin <= utc < end)
+            copy_archive(day, folder, lambda start, after: begin <= start and after <= end)
+        stays = [event for event in events_of(day) if begin <= instant(event["utc"]) < end]
         while stays and stays[0]["type"] != "start":
             stays.pop(0)  # The box was exchanged during this stay.
         stays += changes[k:k + 1]
@@ -108,7 +87,7 @@ def exchanged(days, scratch, times):
 def correct(scratch, name, *roots):
     """Returns value and uncertainty of each station, and the folder of the results."""
     out = scratch / name
-    said = run(BIN / "a351-correct", "survey", *roots, "--out", out, env={"PATH": str(scratch)}, check=False)  # without gnuplot
+    said = correct_survey(roots[0], out, *roots[1:], check=False)
     if said.returncode != 0 and "1 of 2 surveys are not corrected" not in said.stderr:
         raise SystemExit(f"a351-correct ended with {said.returncode}: {said.stderr}")
     values = {row["site"]: (float(row["gravity_mgal"]), float(row["u_gravity_mgal"])) for row in rows(out / "joint.csv")}

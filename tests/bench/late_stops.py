@@ -7,14 +7,13 @@ before to 120 s after it, and then without it in one stay.
 
 import concurrent.futures
 import datetime
-import json
 import os
 import random
 import statistics
 
 from command_line import add_days, at_least, command_line, end_with
 from simulated_units import correct, simulate
-from programs import Scratch, read_json
+from programs import Scratch, events_of, instant, read_json, write_events
 
 MOST_WORSE = 1.10
 PRESSED_S = (-60.0, 120.0)  # after the lifting
@@ -27,22 +26,13 @@ def corrected(folder, day, name):
 
 
 def logged_day(scratch, scenario, seed, more=""):
-    """Simulates a day whose stays are those of its log; returns its folders, the log and its events."""
+    """Simulates a day whose stays are those of its log; returns its folders and its events."""
     folder = scratch / f"{scenario}-{seed}"
     folder.mkdir()
     day = simulate(folder, "day", scenario, seed, 0.0, more)
     survey = day / "survey.toml"
     survey.write_text(survey.read_text().replace('occupations = "schedule.csv"', 'occupations = ""'))
-    log = next((day / "events").glob("*.jsonl"))
-    return folder, day, log, [json.loads(line) for line in log.read_text().splitlines()]
-
-
-def write(log, events):
-    log.write_text("".join(json.dumps(event) + "\n" for event in events))
-
-
-def instant(utc):
-    return datetime.datetime.fromisoformat(utc[:26].rstrip("Z") + "+00:00")
+    return folder, day, events_of(day)
 
 
 def moved(event, to, by_s):
@@ -52,7 +42,7 @@ def moved(event, to, by_s):
 
 def look_at(scratch, scenario, seed, is_clean):
     """Returns the findings without a mistake, and for each late stop its site, findings and ratio of the errors."""
-    folder, day, log, events = logged_day(scratch, scenario, seed)
+    folder, day, events = logged_day(scratch, scenario, seed)
     clean_mgal, false = corrected(folder, day, "clean")
     late = []
     for i, stop in enumerate(events):
@@ -60,7 +50,7 @@ def look_at(scratch, scenario, seed, is_clean):
         if is_clean or stop["type"] != "stop" or not after or after[0]["site"] == stop["site"]:
             continue
         late_stop = moved(stop, instant(after[0]["utc"]), -30.0)
-        write(log, [late_stop if event is stop else event for event in events])
+        write_events(day, [late_stop if event is stop else event for event in events])
         late_mgal, found = corrected(folder, day, "late")
         late.append((stop["site"], found, late_mgal / clean_mgal))
     return false, late
@@ -69,15 +59,15 @@ def look_at(scratch, scenario, seed, is_clean):
 def change(scratch, seed):
     """Returns the findings that only one of two days has, with *Next set-up* beside the lifting and at it; the difference of their left-out
     errors; findings and error of the latter; whether a forgotten one is found and nothing else is new."""
-    folder, day, log, events = logged_day(scratch, "tsukuba", seed, "[schedule]\nsetups = 2\n")
+    folder, day, events = logged_day(scratch, "tsukuba", seed, "[schedule]\nsetups = 2\n")
     draw = random.Random(seed)
     exact_mgal, usual = corrected(folder, day, "exact")
     pressed = [moved(event, instant(event["utc"]), draw.uniform(*PRESSED_S)) if event["type"] == "setup" else event for event in events]
-    write(log, pressed)
+    write_events(day, pressed)
     pressed_mgal, findings = corrected(folder, day, "pressed")
     forgotten = draw.choice([i for i, event in enumerate(events) if event["type"] == "setup"])
     site = next(event["site"] for event in reversed(events[:forgotten]) if event["type"] == "start")
-    write(log, pressed[:forgotten] + pressed[forgotten + 1:])
+    write_events(day, pressed[:forgotten] + pressed[forgotten + 1:])
     _, found = corrected(folder, day, "forgotten")
     return (set(findings) ^ set(usual), pressed_mgal - exact_mgal, usual, exact_mgal,
             set(found) - set(usual) - {("short_stay", site)} == {("missed_set_up", site)})

@@ -8,39 +8,24 @@ import concurrent.futures
 import datetime
 import os
 import shutil
-import struct
 
 from command_line import add_seeds, command_line, end_with
 from simulated_units import correct, rms_by_day, simulate
-from programs import Scratch, rows
+from mseed_records import records
+from programs import Scratch, instant, rows
 
 MOST_MGAL = 1.75
 SCATTER = 0.25
 STAY_S = 720.0
-RECORD = 512  # Bytes of each record that the archiver writes.
-
-
-def record_times(record):
-    """Returns the begin and the end of a miniSEED 2 record (SEED manual 2.4, fixed section of the header)."""
-    year, day, hour, minute, second, _, fraction, count, factor, multiplier = struct.unpack(">HHBBBBHHhh", record[20:36])
-    rate = (factor if factor > 0 else -1.0 / factor) * (multiplier if multiplier > 0 else -1.0 / multiplier)
-    begin = (datetime.datetime(year, 1, 1, tzinfo=datetime.timezone.utc)
-             + datetime.timedelta(days=day - 1, hours=hour, minutes=minute, seconds=second, microseconds=100 * fraction))
-    return begin, begin + datetime.timedelta(seconds=count / rate)
 
 
 def lose(day, begin, end):
     """Removes the records that overlap the time from the archive of a day; returns their number."""
     lost = 0
     for file in (day / "archive").rglob("*.D.*"):
-        data = file.read_bytes()
-        kept = []
-        for at in range(0, len(data), RECORD):
-            first, last = record_times(data[at:at + RECORD])
-            if last <= begin or first >= end:
-                kept.append(data[at:at + RECORD])
-            else:
-                lost += 1
+        found = list(records(file.read_bytes()))
+        kept = [record for record, first, last in found if last <= begin or first >= end]
+        lost += len(found) - len(kept)
         file.write_bytes(b"".join(kept))
     return lost
 
@@ -58,8 +43,7 @@ def look_at(scratch, seed):
     survey = day / "survey.toml"
     whole = correct(day, survey, "whole", "--model", "day", "--flags", "ignore")
     complete = errors_of(whole)
-    times = [datetime.datetime.fromisoformat(row["time_utc"].replace("Z", "+00:00"))
-             for row in rows(whole / "occupations.csv")]
+    times = [instant(row["time_utc"]) for row in rows(whole / "occupations.csv")]
     hour, stay = datetime.timedelta(hours=1), datetime.timedelta(seconds=STAY_S)
     found = {}
     # The road from the third to the fourth stay takes about 50 min, which is extended into the stay before; the ninth stay

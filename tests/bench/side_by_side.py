@@ -8,7 +8,6 @@ The first day is corrected with the usual prior too, to show what the result say
 """
 
 import concurrent.futures
-import datetime
 import os
 import random
 import shutil
@@ -16,7 +15,7 @@ import statistics
 
 from command_line import add_days, command_line, end_with
 from simulated_units import correct, hide_references, simulate
-from programs import TOOLS, Scratch, read_json, rows, run
+from programs import TOOLS, Scratch, instant, read_json, rows, run
 
 PRIOR_SD = 0.02
 SCALE_SD = 0.01
@@ -33,7 +32,7 @@ def write_meter(day, seed):
     lines = ["site,occupation,outlier,time_utc,earth_tide_mgal,acceleration_mgal,temperature_degc,instrument,loop"]
     start = gravity = None
     for row in rows(day / "truth.csv"):
-        time = datetime.datetime.fromisoformat(row["start_utc"].replace("Z", "+00:00"))
+        time = instant(row["start_utc"])
         start, gravity = start or time, gravity or float(row["gravity_mgal"])
         hours = (time - start).total_seconds() / 3600.0
         reading = 2500.0 + scale * (float(row["gravity_mgal"]) - gravity) + 0.02 * hours + draw.gauss(0.0, METER_MGAL)

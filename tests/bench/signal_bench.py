@@ -19,18 +19,17 @@ mistakes found on 95 % of the days, error over u then at most 2.  On few days er
 """
 
 import concurrent.futures
-import datetime
 import json
 import os
 import random
 import shutil
 import statistics
-import struct
 import subprocess
 
 from command_line import at_least, command_line, end_with
 from simulated_units import assumed, rms, simulate, simulate_unit, unit_of
-from programs import BIN, Scratch, rows
+from mseed_records import begin_of, records
+from programs import BIN, Scratch, events_of, instant, rows, write_events, write_sites
 
 SCENARIOS = ("tsukuba", "hot-afternoon")
 CURVED = ("quadratic", "three-links")
@@ -38,44 +37,23 @@ TWO_SET_UPS = "[schedule]\nsetups = 2\n"
 UNIT_SCATTER = 0.25  # The thermal parameters of a unit are within this share of their usual values, as in the other benches.
 STAYS_s = (720, 1020)  # As they are, and 5 min longer.
 DISPLACED_mgal, WRONG_mgal, LEAST_APART_mgal = 12.0, 20.0, 10.0
-RECORD_bytes = 512
 
 
-def sites_with(table, gravity_of):
-    return "site,longitude_deg,latitude_deg,altitude_m,gravity_mgal\n" + "".join(
-        ",".join([row["site"], row["longitude_deg"], row["latitude_deg"], row["altitude_m"], str(gravity_of.get(row["site"], ""))]) + "\n"
-        for row in table)
-
-
-def so_far(day, events, sites):
-    """Returns the gravity so far with these events and sites."""
-    log = next((day / "events").glob("*.jsonl"))
-    log.write_text("".join(json.dumps(event) + "\n" for event in events))
-    (day / "now.csv").write_text(sites)
+def so_far(day, events):
+    """Returns the gravity so far with these events and the sites of now.csv."""
+    write_events(day, events)
     answer = subprocess.run([BIN / "a351-correct", "survey", day, "--sites", day / "now.csv", "--json"], capture_output=True, text=True,
                             check=True)
     return json.loads(answer.stdout)
-
-
-def second_of_day(record):
-    """Returns the start of a miniSEED record."""
-    year, day, hour, minute, second, _, fraction = struct.unpack(">HHBBBBH", record[20:30])
-    return (year, day), 3600 * hour + 60 * minute + second + fraction * 1e-4
 
 
 def displace(day, higher, start, end):
     """Takes the records of the vertical axis in [start, end) from the same day with a higher gravity."""
     for file in sorted((day / "archive").rglob("*.BNZ.D.*")):
         other = higher / file.relative_to(day)
-        parts = [[data[i:i + RECORD_bytes] for i in range(0, len(data), RECORD_bytes)] for data in (file.read_bytes(), other.read_bytes())]
-        inside = lambda record: start <= second_of_day(record) < end  # noqa: E731
-        kept = [record for record in parts[0] if not inside(record)] + [record for record in parts[1] if inside(record)]
-        file.write_bytes(b"".join(sorted(kept, key=second_of_day)))
-
-
-def as_second(utc):
-    time = datetime.datetime.fromisoformat(utc[:26])
-    return (time.year, time.timetuple().tm_yday), 3600 * time.hour + 60 * time.minute + time.second + time.microsecond * 1e-6
+        kept = [record for source in (file, other) for record, begin, _ in records(source.read_bytes())
+                if (start <= begin < end) == (source == other)]
+        file.write_bytes(b"".join(sorted(kept, key=begin_of)))
 
 
 def stays_of(events):
@@ -90,7 +68,7 @@ class Day:
     def __init__(self, folder, scenario, seed, more, unit=None):
         folder.mkdir()
         self.folder, self.path = folder, simulate_unit(folder, "day", scenario, seed, unit or unit_of(seed, UNIT_SCATTER), more)
-        self.events = [json.loads(line) for line in next((self.path / "events").glob("*.jsonl")).read_text().splitlines()]
+        self.events = events_of(self.path)
         self.table = rows(self.path / "sites.csv")
         self.true = {row["site"]: float(row["gravity_mgal"]) for row in self.table}
         self.listed = dict(self.true)
@@ -101,7 +79,8 @@ class Day:
 
     def after_stop(self, k):
         """Returns the texts of the contradictions and the stays, as after the stop of stay k."""
-        answer = so_far(self.path, self.events[:self.stays[k][1] + 1], sites_with(self.table, self.listed))
+        write_sites(self.path / "now.csv", self.table, self.listed)
+        answer = so_far(self.path, self.events[:self.stays[k][1] + 1])
         return [one["text"] for one in answer["contradictions"]], answer["stays"]
 
     def spread(self, stays):
@@ -129,7 +108,7 @@ def raise_second_set_up(day, scenario, seed, k):
     higher = simulate(day.folder, "higher", scenario, seed, UNIT_SCATTER, TWO_SET_UPS + text)
     start, stop = day.stays[k]
     second = next(i for i in range(start, stop) if day.events[i]["type"] == "setup")
-    displace(day.path, higher, as_second(day.events[second]["utc"]), as_second(day.events[stop]["utc"]))
+    displace(day.path, higher, instant(day.events[second]["utc"]), instant(day.events[stop]["utc"]))
 
 
 def with_mistake(scratch, kind, seed):

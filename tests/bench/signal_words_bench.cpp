@@ -227,5 +227,6 @@ int main(int count, char** arguments) {
         is_kept = is_kept &&
                   (is_forgotten ? 20 * named >= 19 * static_cast<std::size_t>(days) : looks == 0);
     }
+    std::puts(is_kept ? "all promises kept" : "NOT REACHED: a word too late, missing or false");
     return is_kept ? 0 : 1;
 }

@@ -9,7 +9,7 @@ import statistics
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "system"))
-from programs import BIN, TOOLS, read_json, rows, run  # noqa: F401  TOOLS is for those that import this module.
+from programs import BIN, TOOLS, correct_survey, read_json, rms, rows, run, write_sites  # noqa: F401  TOOLS is for those that import this module.
 
 UNIT = {"crystal_static_mgal_per_degc": -12.0, "crystal_dynamic_mgal_per_degc": -950.0, "crystal_tau_s": 43.0,
         "clock_mgal_per_degc": -20.0, "clock_tau_s": 2700.0, "warm_up_mgal": 36.0, "warm_up_tau_h": 2.5}
@@ -70,10 +70,8 @@ def measure(folder, name, base, seed, scatter, more=""):
 
 def correct(folder, survey, name, *options):
     """Corrects a day and returns the folder of the results."""
-    out = folder / name
-    run(BIN / "a351-correct", "survey", survey, "--out", out, *options,
-        env={"PATH": str(folder)})  # A folder without gnuplot, so that no figures are drawn.
-    return out
+    correct_survey(survey, folder / name, *options)
+    return folder / name
 
 
 def hide_references(day, known, name):
@@ -82,11 +80,7 @@ def hide_references(day, known, name):
     @return  the file, and the true gravity by site
     """
     sites = rows(day / "sites.csv")
-    lines = ["site,longitude_deg,latitude_deg,altitude_m,gravity_mgal"]
-    for row in sites:
-        gravity = row["gravity_mgal"] if row["site"] in known else ""
-        lines.append(",".join([row["site"], row["longitude_deg"], row["latitude_deg"], row["altitude_m"], gravity]))
-    (day / f"{name}.csv").write_text("\n".join(lines) + "\n")
+    write_sites(day / f"{name}.csv", sites, {row["site"]: row["gravity_mgal"] for row in sites if row["site"] in known})
     survey = day / f"{name}.toml"
     text = (day / "survey.toml").read_text()
     assert '"sites.csv"' in text
@@ -106,11 +100,6 @@ def kept(file, compute):
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(json.dumps(compute()))
     return read_json(file)
-
-
-def rms(values):
-    """Returns the root mean square of the values."""
-    return math.sqrt(statistics.fmean(value * value for value in values))
 
 
 def rms_by_day(days):

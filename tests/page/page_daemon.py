@@ -3,13 +3,12 @@
 Data must appear soon and follow the sensor closely, and an occupation must survive a page reload and a killed daemon.
 """
 
-import datetime
 import signal
 import time
 
 from browser import Browser
 from emulated_session import Session
-from programs import IS_SANITIZED, Scratch, demand
+from programs import IS_SANITIZED, Scratch, demand, instant
 
 FIRST_DATA_S = 2.0
 BEHIND_S = 1.0 if IS_SANITIZED else 0.5
@@ -29,10 +28,6 @@ def seconds_of_day(text):
     return sum(float(part) * unit for part, unit in zip(text.split(":"), (3600, 60, 1)))
 
 
-def instant(text):
-    return datetime.datetime.fromisoformat(text.replace("Z", "+00:00")).timestamp()
-
-
 def measure_first_data(session, browser):
     browser.driver.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": WATCH})
     for _ in range(3):
@@ -45,7 +40,7 @@ def measure_first_data(session, browser):
 
 def measure_lag(session, browser):
     start, host = session.clock.split("@")[1].split(",")
-    ahead_s = instant(start) - instant(host)
+    ahead_s = (instant(start) - instant(host)).total_seconds()
     lags = []
     for _ in range(30):
         shown, now_ms = browser.run("return [document.getElementById('trace-end').textContent, Date.now()]")

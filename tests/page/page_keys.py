@@ -3,7 +3,7 @@
 import time
 
 from browser import Browser, Keys
-from made_up import finished, no_stay, occupation, signal, sites
+from made_up import finished, occupation, signal, sites
 from programs import demand
 from stub_daemon import StubDaemon
 

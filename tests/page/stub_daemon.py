@@ -17,6 +17,8 @@ import threading
 import time
 import zlib
 
+from programs import instant
+
 TOP = pathlib.Path(__file__).resolve().parents[2]
 ASSETS = [TOP / "daemon" / "page" / "assets", pathlib.Path("/usr/share/javascript/dygraphs")]
 TYPES = {".html": "text/html; charset=utf-8", ".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml"}
@@ -168,7 +170,7 @@ class StubDaemon:
         else:
             status["sample"] = None
         if status["occupation"]:
-            start_s = datetime.datetime.fromisoformat(status["occupation"]["start"].replace("Z", "+00:00")).timestamp()
+            start_s = instant(status["occupation"]["start"]).timestamp()
             status["occupation"] = {**status["occupation"], "running_s": time.time() - start_s}
         return status
 
@@ -214,8 +216,7 @@ class StubDaemon:
         return self.reply(request, {"error": "there is no such path"}, status=404)
 
     def history(self, query):
-        begin, end = (datetime.datetime.fromisoformat(
-            query[key].replace("%3A", ":").replace("Z", "+00:00")).timestamp() for key in ("from", "to"))
+        begin, end = (instant(query[key].replace("%3A", ":")).timestamp() for key in ("from", "to"))
         step = max(2.0, (end - begin) / int(query["points"]))
         channel = query["channel"]
         points = []

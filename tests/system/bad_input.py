@@ -5,7 +5,7 @@ The unit tests of the readers have every mistake; here is one of each file, and 
 
 import shutil
 
-from programs import BIN, TOP, Scratch, daemon_config, demand, run
+from programs import BIN, TOP, Scratch, daemon_config, demand, refused
 
 GOLDEN = TOP / "tests" / "golden" / "tsukuba"
 CONFIG = daemon_config(8351) + '[survey]\nsites = "sites.csv"\n'
@@ -33,10 +33,7 @@ def refuse(title, parts, *command, **files):
         for name, text in {"a351d": CONFIG, "sites": SITES, **files}.items():
             (scratch / (name + (".csv" if name in ("sites", "bad") else ".toml"))).write_text(text)
         before = listing(scratch)
-        result = run(BIN / command[0], *command[1:], check=False, cwd=scratch)
-        line = result.stderr.strip()
-        demand(f"{title}: status 2 and one line with {parts}: {line}",
-               result.returncode == 2 and line != "" and "\n" not in line and all(part in line for part in parts))
+        refused(parts, BIN / command[0], *command[1:], cwd=scratch)
         demand(f"{title}: nothing written", listing(scratch) == before
                and (scratch / "taken").read_text() == "somebody's")
 

@@ -4,14 +4,10 @@ import datetime
 import signal
 
 from emulated_session import Session, wait_for
-from programs import BIN, ONE_SITE, run
+from programs import BIN, ONE_SITE, instant, run
 
 SITES = "site,longitude_deg,latitude_deg,altitude_m,gravity_mgal\nNo.1,140.1,36.1,26,\nNo.2,140.2,36.2,30,\n"
 SAMPLE_S = 0.02
-
-
-def instant(text):
-    return datetime.datetime.fromisoformat(text.replace("Z", "+00:00"))
 
 
 def spread_s(instants):

@@ -5,13 +5,14 @@ import re
 import shutil
 import tomllib
 
-from programs import BIN, TOP, Scratch, demand, read_json, rows, run
+from programs import BIN, TOP, Scratch, demand, read_json, refused, rows, run
 
 SEED = 4
+CORRECT = BIN / "a351-correct"
 
 
-def correct(*arguments, check=True, cwd=None):
-    return run(BIN / "a351-correct", *arguments, check=check, cwd=cwd)
+def correct(*arguments, cwd=None):
+    return run(CORRECT, *arguments, cwd=cwd)
 
 
 def true_biases(series):
@@ -65,29 +66,20 @@ with Scratch() as scratch:
     (scratch / "ended.toml").write_text(text.replace("[axis_bias]", 'valid_to_utc = "2017-01-01T00:00:00Z"\n\n[axis_bias]', 1)
                                         .replace('valid_from_utc = "2017', 'valid_from_utc = "2016'))
     merge = ("calibrate", "--tilt", "tilt-series", "--merge", "ended.toml", "--out")
-    refused = correct(*merge, "merged.toml", check=False, cwd=scratch)
-    print(refused.stderr.strip())
-    demand("a validity that ended before the tilt series is refused",
-           refused.returncode == 2 and "ended.toml: valid_to_utc" in refused.stderr and not (scratch / "merged.toml").exists())
+    # A validity that ended before the tilt series.
+    refused("ended.toml: valid_to_utc", CORRECT, *merge, "merged.toml", cwd=scratch)
     correct(*merge, "merged.toml", "--valid-to", "2030-01-01T00:00:00Z", cwd=scratch)
 
     merged = (scratch / "merged.toml").read_text()
     demand("a data file that both calibrations used is listed once", merged.count("[[data]]") == text.count("[[data]]") > 4)
     shutil.copytree(scratch / "tilt-series", scratch / "copy")
     for again in ("tilt-series", "copy"):
-        refused = correct("calibrate", "--tilt", "tilt-series", again, "--out", "twice.toml", check=False, cwd=scratch)
-        print(refused.stderr.strip())
-        demand(f"the tilt series given again as {again} is refused as the same series",
-               refused.returncode == 2 and "each reading once" in refused.stderr and
-               not (scratch / "twice.toml").exists())
+        refused("each reading once", CORRECT, "calibrate", "--tilt", "tilt-series", again, "--out", "no.toml", cwd=scratch)
 
     for bad in (("calibrate", "--tilt", "tilt-series", "--out", "tilt-series/"),
                 ("calibrate", "--tilt", "tilt-series", "--out", "c.toml/c.toml"),
                 ("record", "tilt-series", "--out", "c.toml")):
-        refused = correct(*bad, check=False, cwd=scratch)
-        print(refused.stderr.strip())
-        demand(f"{bad[0]} refuses the output {bad[-1]} before it starts computing",
-               refused.returncode == 2 and f"--out = {bad[-1]}" in refused.stderr)
+        refused(f"--out = {bad[-1]}", CORRECT, *bad, cwd=scratch)
 
     survey = ("survey", "tilted/survey.toml", "--out", "result", "--calibration")
     correct(*survey, "c.toml", cwd=scratch)
@@ -124,10 +116,8 @@ with Scratch() as scratch:
     correct(*survey, "both.toml", cwd=scratch)
     demand("the placement is a prior of the survey",
            read_json(scratch / "result" / "result.json")["calibration"]["placement"]["use"] == "prior")
-    refused = correct("calibrate", "--placement", "tilted/survey.toml", "--out", "no.toml", check=False, cwd=scratch)
-    print(refused.stderr.strip())
-    demand("a survey day given as repeated set-ups is refused", refused.returncode == 2 and "one point" in refused.stderr and
-           not (scratch / "no.toml").exists())
+    for series in ("--placement", "--tilt"):
+        refused("one point", CORRECT, "calibrate", series, "tilted/survey.toml", "--out", "no.toml", cwd=scratch)
 
     run(BIN / "a351-sim", "survey", "--scenario", "tumble", "--seed", SEED, "--out", scratch / "tumble")
     print(found := correct("calibrate", "--tumble", "tumble", "--out", "tumble.toml", cwd=scratch).stdout)
@@ -160,17 +150,8 @@ with Scratch() as scratch:
     said = correct("calibrate", "--tumble", "tumble", "--out", "wrong.toml", cwd=scratch)
     print(said.stderr.strip())
     demand("a gravity that does not fit its place gives a warning", "normal gravity" in said.stderr and "979763" in table)
-    refused = correct("calibrate", "--tumble", "tilt-series", "--out", "no.toml", check=False, cwd=scratch)
-    print(refused.stderr.strip())
-    demand("a series without upturned positions is refused", refused.returncode == 2 and "no position with x up" in refused.stderr)
+    refused("no position with x up", CORRECT, "calibrate", "--tumble", "tilt-series", "--out", "no.toml", cwd=scratch)
 
     (scratch / "other.toml").write_text(text.replace("00000001", "00000002"))
-    refused = correct("survey", "tilted/survey.toml", "--out", "other", "--calibration", "other.toml", check=False, cwd=scratch)
-    print(refused.stderr.strip())
-    demand("the calibration of another unit is refused in one line",
-           refused.returncode == 2 and refused.stderr.count("\n") == 1 and "unit 00000002" in refused.stderr)
-    demand("the refused survey writes nothing", not (scratch / "other").exists())
-    refused = correct("calibrate", "--tilt", "tilted/survey.toml", "--out", "no.toml", check=False, cwd=scratch)
-    print(refused.stderr.strip())
-    demand("a survey day given as a tilt series is refused", refused.returncode == 2 and "one point" in refused.stderr and
-           not (scratch / "no.toml").exists())
+    refused("unit 00000002", CORRECT, "survey", "tilted/survey.toml", "--out", "no.toml", "--calibration", "other.toml", cwd=scratch)
+    demand("what is refused writes nothing", not (scratch / "no.toml").exists())

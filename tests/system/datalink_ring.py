@@ -88,7 +88,7 @@ class Ring:
     def _talk(self, client, mood):
         if mood == "mute":
             receive(client, 1 << 30)
-        pattern_names, writes = None, 0
+        writes = 0
         while True:
             preheader = receive(client, 3)
             if preheader[:2] != b"DL":
@@ -98,7 +98,7 @@ class Ring:
             if words[0] == "ID":
                 send(client, "ID DataLink 2026.001 :: DLPROTO:1.0 PACKETSIZE:512 WRITE")
             elif words[0] == "MATCH":
-                pattern_names = receive(client, int(words[1]))
+                receive(client, int(words[1]))
                 send(client, "OK 0 0")
             elif words[:2] == ["INFO", "STREAMS"]:
                 if mood == "flood":

@@ -11,7 +11,7 @@ BROUGHT_HOME = "/var/lib/a351/base"
 
 
 def kept(root):
-    return inside(root, f"cd / && find etc/a351 var/lib/a351 -type f | sort | xargs -r sha256sum")
+    return inside(root, "cd / && find etc/a351 var/lib/a351 -type f | sort | xargs -r sha256sum")
 
 
 def version_of(deb):

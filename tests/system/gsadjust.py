@@ -4,14 +4,13 @@ A351_GSADJUST is the folder of GSadjust's source that holds main.py (https://cod
 NumPy and Matplotlib, the stations need PyQt5.
 """
 
-import datetime
 import importlib
 import os
 import pathlib
 import sys
 import types
 
-from programs import BIN, TOP, Scratch, demand, rows, run, skip
+from programs import BIN, TOP, Scratch, demand, instant, rows, run, skip
 
 if "A351_GSADJUST" not in os.environ:
     skip("A351_GSADJUST is not set; set it to the source folder of GSadjust")
@@ -58,7 +57,7 @@ def compare(title, result):
     for row, station in zip(ours, theirs):
         value = number(row, "acceleration_mgal") - number(row, "tide_mgal") + sum(
             number(row, f"{term}_correction_mgal") for term in ("temperature", "rate", "tilt"))
-        time = datetime.datetime.fromisoformat(row["time_utc"].replace("Z", "+00:00")).timestamp()
+        time = instant(row["time_utc"]).timestamp()
         for what, difference in (("value", station.gmean / 1e3 - value),
                                  ("deviation", station.stdev() / 1e3 - number(row, "u_corrected_mgal")),
                                  ("tide", station.etc[0] / 1e3 + number(row, "tide_mgal")),

@@ -3,7 +3,7 @@ values agree with the truth."""
 
 import json
 
-from programs import BIN, TOP, Scratch, demand, rows, run
+from programs import BIN, TOP, Scratch, correct_survey, demand, rows, run, write_sites
 
 KNOWN = {"No.0", "No.7", "No.12"}
 
@@ -12,16 +12,15 @@ def simulate(folder, name, seed, serial, more="", text=None):
     scenario = folder / f"{name}.toml"
     scenario.write_text(text or f'base = "tsukuba"\nname = "{name}"\n{more}')
     run(BIN / "a351-sim", "survey", "--scenario", scenario, "--seed", seed, "--serial", serial, "--out", folder / name)
-    sites = (folder / name / "sites.csv").read_text().splitlines()
-    lines = [line if index == 0 or line.split(",")[0] in KNOWN else line.rsplit(",", 1)[0] + "," for index, line in enumerate(sites)]
-    (folder / name / "known.csv").write_text("\n".join(lines) + "\n")
+    table = rows(folder / name / "sites.csv")
+    write_sites(folder / name / "known.csv", table, {row["site"]: row["gravity_mgal"] for row in table if row["site"] in KNOWN})
     survey = folder / name / "survey.toml"
     survey.write_text(survey.read_text().replace('"sites.csv"', '"known.csv"'))
     return survey
 
 
 def joined(folder, name, *surveys):
-    run(BIN / "a351-correct", "survey", *surveys, "--model", "day", "--out", folder / name, env={"PATH": str(folder)})
+    correct_survey(surveys[0], folder / name, *surveys[1:], "--model", "day")
     return {file: (folder / name / file).read_bytes()
             for file in ("joint.csv", "joint-differences.csv", "joint.json", "joint.html", "history.csv", "terms.csv")}
 

@@ -22,7 +22,7 @@ import threading
 import time
 
 from emulated_session import INTACT, Session, wait_for
-from programs import IS_LONG, TOOLS, Scratch, daemon_status, demand, run, skip
+from programs import IS_LONG, TOOLS, Scratch, daemon_status, demand, instant, run, skip
 
 RATE_HZ = 50
 LOSS_S = 0.2  # Largest loss before a kill, in s of real time.
@@ -56,7 +56,7 @@ class Killed(Session):
         (events / f"{start[:7]}.jsonl").write_text(json.dumps({"type": "start", "utc": start, "site": "No.0"}) + "\n")
 
     def simulated_ns(self):
-        start, host = (datetime.datetime.fromisoformat(part) for part in self.clock.split("@")[1].split(","))
+        start, host = (instant(part) for part in self.clock.split("@")[1].split(","))
         epoch = datetime.datetime.fromtimestamp(0, datetime.timezone.utc)
         seconds = time.time() - (host - epoch).total_seconds()
         return round(((start - epoch).total_seconds() + self.speed * seconds) * 1e9)

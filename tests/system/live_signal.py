@@ -6,7 +6,7 @@ import signal
 import time
 
 from emulated_session import Session, wait_for
-from programs import BIN, IS_SANITIZED, Scratch, demand, run
+from programs import BIN, IS_SANITIZED, Scratch, demand, events_of, run
 
 G_MGAL = 980665.0
 MOST_S = 40 if IS_SANITIZED else 10
@@ -38,8 +38,7 @@ with Scratch() as scratch:
              lambda: session.status()["details"]["reasons"][0].startswith("temperature known for"), 10)
 
     def logged():
-        lines = [line for file in (scratch / "data/events").glob("*.jsonl") for line in file.read_text().splitlines()]
-        return [event["word"] for event in map(json.loads, lines) if event["type"] == "signal"]
+        return [event["word"] for event in events_of(scratch / "data") if event["type"] == "signal"]
 
     print(ctl(session, "start", "No.0").stdout, end="")
     wait_for("keep off while the set-up runs", lambda: word(session) == "keep_off", 20)

@@ -3,13 +3,12 @@
 fresh_debian.py builds, installs and uses them in fresh roots of Debian 12 and 13.
 """
 
-import datetime
 import os
 import re
 import shutil
 import time
 
-from programs import BIN, IS_SANITIZED, TOP, Scratch, demand, read_json, run, skip
+from programs import BIN, IS_SANITIZED, TOP, Scratch, demand, instant, read_json, run, skip
 
 BUILD = BIN.parent
 SYSTEM_FILES = ["systemd/system/a351d@.service", "systemd/system/a351-stream@.service"]
@@ -87,7 +86,7 @@ def same_bytes(first, scratch):
     """Makes the packages again at another time, on another kind of file system, with another umask; demands equal bytes."""
     created = read_json(next(first.glob("*.spdx.json")))["creationInfo"]["created"]
     # A commit made meanwhile would change the date.
-    os.environ["SOURCE_DATE_EPOCH"] = str(int(datetime.datetime.fromisoformat(created.replace("Z", "+00:00")).timestamp()))
+    os.environ["SOURCE_DATE_EPOCH"] = str(int(instant(created).timestamp()))
     before = os.umask(0o077)
     again = build(scratch / "again")
     os.umask(before)

@@ -2,13 +2,16 @@
 
 import concurrent.futures
 import csv
+import datetime
 import http.client
 import json
+import math
 import os
 import pathlib
 import random
 import shutil
 import socket
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -44,6 +47,19 @@ def run(*command, check=True, env=None, cwd=None):
         print(result.stdout[-4000:], result.stderr[-4000:], sep="\n")
         sys.exit(f"{command[0]} ended with {result.returncode}")
     return result
+
+
+def refused(words, *command, cwd=None):
+    """Demands that a program ends with status 2 and one line that has these words, a text or several."""
+    result = run(*command, check=False, cwd=cwd)
+    line = result.stderr.strip()
+    demand(f"refused: {line}", result.returncode == 2 and line != "" and "\n" not in line
+           and all(word in line for word in ([words] if isinstance(words, str) else words)))
+
+
+def correct_survey(survey, out, *options, check=True):
+    """Corrects a day without figures: PATH names a folder without gnuplot."""
+    return run(BIN / "a351-correct", "survey", survey, "--out", out, *options, env={"PATH": str(out)}, check=check)
 
 
 taken_ports = []
@@ -107,9 +123,32 @@ def short_day():
     return text
 
 
+def instant(text):
+    """Returns the time of an RFC 3339 text in UTC, to the microsecond."""
+    return datetime.datetime.fromisoformat(text[:26].rstrip("Z") + "+00:00")
+
+
+def events_of(root):
+    """Returns the events of a data root."""
+    return [json.loads(line) for file in sorted((root / "events").glob("*.jsonl")) for line in file.read_text().splitlines()]
+
+
+def write_events(root, events):
+    """Writes the events of a data root whose log has one file."""
+    file, = (root / "events").glob("*.jsonl")
+    file.write_text("".join(json.dumps(event) + "\n" for event in events))
+
+
 def rows(file):
     with open(file, newline="") as text:
         return list(csv.DictReader(text))
+
+
+def write_sites(file, table, gravity_of):
+    """Writes the list of sites of a table with the gravities of those that are known, by name."""
+    columns = ("site", "longitude_deg", "latitude_deg", "altitude_m")
+    lines = [",".join([*(row[column] for column in columns), str(gravity_of.get(row["site"], ""))]) for row in table]
+    file.write_text("\n".join([",".join([*columns, "gravity_mgal"]), *lines]) + "\n")
 
 
 def compare_truth(archive, truth):
@@ -159,3 +198,8 @@ class Scratch:
 
 def read_json(file):
     return json.loads(pathlib.Path(file).read_text())
+
+
+def rms(values):
+    """Returns the root mean square of the values."""
+    return math.sqrt(statistics.fmean(value * value for value in values))

@@ -4,7 +4,7 @@ import json
 import re
 import sys
 
-from programs import BIN, ONE_SITE, TOP, Scratch, demand, run
+from programs import BIN, ONE_SITE, TOP, Scratch, demand, events_of, run
 from stranger_journal import RX, journal, received
 
 SPEED = 500
@@ -44,10 +44,6 @@ LOG = [
     {"type": "stop", "utc": at(63, 40), "site": "No.4"},
 ]
 PLACED = ("start", "stop", "setup")  # Changes that keep their instant; the others have that of their entry.
-
-
-def events_of(root):
-    return [json.loads(line) for file in sorted((root / "events").glob("*.jsonl")) for line in file.read_text().splitlines()]
 
 
 def bytes_of(root):

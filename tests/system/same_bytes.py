@@ -1,4 +1,4 @@
-"""The results depend on the input alone, not on threads, locale, time zone, truth files or the order of rows.
+"""The results depend on the input alone, not on threads, processes beside it, locale, time zone, truth files or the order of rows.
 
 Threads: one core and seven threads; A351_LONG=1: also one and two threads on all cores.
 """
@@ -8,7 +8,7 @@ import re
 import shutil
 import time
 
-from programs import BIN, IS_LONG, IS_SANITIZED, TOOLS, TOP, Scratch, demand, read_json, run
+from programs import BIN, IS_LONG, IS_SANITIZED, TOOLS, TOP, Scratch, demand, read_json, run, together
 
 GOLDEN = TOP / "tests" / "golden" / "tsukuba"
 FILES = {"occupations.csv", "stations.csv", "models.csv", "result.json", "stations.geojson", "gsadjust.csv",
@@ -75,11 +75,10 @@ with Scratch() as scratch:
     abroad = foreign(scratch)
     run(BIN / "a351-correct", "survey", root / "survey.toml", "--out", scratch / "first")
     run("sh", "-c", f"rm -f {root}/truth*")
-    run(BIN / "a351-correct", "survey", root / "survey.toml", "--out", scratch / "second", env=abroad)
-    run("taskset", "1", BIN / "a351-correct", "survey", root / "survey.toml", "--out",
-        scratch / "third")
+    survey = BIN / "a351-correct", "survey", root / "survey.toml", "--out"
+    together(lambda: run(*survey, scratch / "second", env=abroad), lambda: run("taskset", "1", *survey, scratch / "third"))
     first = content(scratch / "first")
-    demand_equal("other locale and time zone, no truth files", first, content(scratch / "second"))
+    demand_equal("other locale and time zone, no truth files, beside another process", first, content(scratch / "second"))
     demand_equal("one core", first, content(scratch / "third"))
     model = read_json(scratch / "first" / "result.json")["model"]
     demand(f"{len(first)} files including figures, corrected by the model {model}",

@@ -12,7 +12,8 @@ import time
 
 from datalink_ring import Ring
 from emulated_session import Session
-from programs import BIN, IS_LONG, IS_SANITIZED, ONE_SITE, Scratch, demand, unused_port
+from mseed_records import begin_of
+from programs import BIN, IS_LONG, IS_SANITIZED, ONE_SITE, Scratch, demand, instant, unused_port
 
 SECONDS = 60 if IS_LONG else 30
 MOST_S = 2.0
@@ -26,17 +27,9 @@ duration_h = 10.0
 """ + ONE_SITE
 
 
-def first_sample(record):
-    """Returns the time of the first sample of a record, from its fixed header and blockette 1001."""
-    year, day = int.from_bytes(record[20:22], "big"), int.from_bytes(record[22:24], "big")
-    begin = datetime.datetime(year, 1, 1, *record[24:27], tzinfo=datetime.timezone.utc) + datetime.timedelta(days=day - 1)
-    microseconds = int.from_bytes(record[28:30], "big") * 100 + int.from_bytes(record[61:62], "big", signed=True)
-    return begin + datetime.timedelta(microseconds=microseconds)
-
-
 def latencies(session, ring):
     """Returns how old the oldest and the newest sample of each record are on arrival, in s, for the channels of the sensor."""
-    start, host = (datetime.datetime.fromisoformat(part.replace("Z", "+00:00")) for part in session.clock.split("@")[1].split(","))
+    start, host = (instant(part) for part in session.clock.split("@")[1].split(","))
     begin, seen, oldest, newest = None, 0, [], []
     end = time.monotonic() + SECONDS
     while time.monotonic() < end:
@@ -48,10 +41,10 @@ def latencies(session, ring):
         for record in fresh:
             if record[15:16] != b"B":
                 continue
-            begin = begin or first_sample(record)
-            if first_sample(record) < begin + datetime.timedelta(seconds=3):
+            begin = begin or begin_of(record)
+            if begin_of(record) < begin + datetime.timedelta(seconds=3):
                 continue  # The times of the first 2 s of a stream are not known at once.
-            age_s = (now - first_sample(record)).total_seconds()
+            age_s = (now - begin_of(record)).total_seconds()
             oldest.append(age_s)
             newest.append(age_s - (int.from_bytes(record[30:32], "big") - 1) / 50.0)
     return oldest, newest

@@ -1,4 +1,7 @@
-"""Readers of journal, archive and event log, written from the format pages alone, with about 30 lines each."""
+"""Readers of journal, archive and event log, written from the format pages alone, with about 30 lines each.
+
+check_logs.py beside the golden logs reads the frames in a journal.
+"""
 
 import csv
 import datetime
@@ -6,19 +9,9 @@ import json
 import struct
 
 from programs import TOP, demand
-from stranger_journal import RX, journal, received
+from stranger_journal import journal, received
 
 GOLDEN = TOP / "tests" / "golden"
-
-
-def samples(frame):
-    """Returns temperature, x, y, z, COUNT of a frame; None if the checksum is wrong.
-
-    protocol/wire/burst-format.md, BURST_CTRL C703h.
-    """
-    whole = frame[0] == 0x80 and frame[23] == 0x0D and sum(struct.unpack(">10H", frame[1:21])) % 65536 == \
-        struct.unpack(">H", frame[21:23])[0]
-    return struct.unpack(">iiiiH", frame[3:21]) if whole else None
 
 
 def signed(word, shift, bits):
@@ -114,13 +107,6 @@ demand("the example has two reads, 20 ms apart", received(found[3][1]) ==
 damaged = bytearray((GOLDEN / "journal" / "00000001_20260301T130000Z.a351j").read_bytes())
 damaged[0x282] ^= 4  # In the header of the RX chunk.
 demand("behind a damaged chunk the next ones are found", [kind for kind, _ in journal(bytes(damaged))] == [1, 3, 4, 5, 6, 7, 8])
-
-log = GOLDEN / "logs" / "clean_start"
-stream = b"".join(data for kind, payload in journal(log.with_suffix(".a351j")) if kind == RX
-                  for _, data in received(payload))
-wanted = [[int(row[i]) for i in (5, 2, 3, 4, 1)] for row in rows(log.with_suffix(".csv"))]
-frames = [list(samples(stream[i:i + 24]) or ()) for i in range(0, len(stream) - 23, 24)]
-demand(f"the {len(frames)} frames of a recorded journal are the {len(wanted)} expected ones", frames == wanted)
 
 code, start, rate, values = record((GOLDEN / "miniseed" / "XX.A351.00.BNZ_steim2_blockette100.mseed").read_bytes())
 instant = datetime.datetime.fromtimestamp(start // 10**9, datetime.timezone.utc).strftime("%FT%T") + f".{start % 10**9:09d}"

@@ -14,7 +14,8 @@ import time
 
 from datalink_ring import Ring, fdsn_name
 from emulated_session import Session, wait_for
-from programs import BIN, IS_SANITIZED, ONE_SITE, Scratch, demand, run, unused_port
+from mseed_records import begin_of
+from programs import BIN, IS_SANITIZED, ONE_SITE, Scratch, demand, instant, run, unused_port
 
 SEED = 7
 SPEED = 20 if IS_SANITIZED else 60
@@ -80,11 +81,8 @@ def demand_same(what, ring, archive):
 
 
 def first_sample(record):
-    """Returns the start of a record in us, from its fixed header and blockette 1001."""
-    year, day = int.from_bytes(record[20:22], "big"), int.from_bytes(record[22:24], "big")
-    start = datetime.datetime(year, 1, 1, record[24], record[25], record[26]) + datetime.timedelta(days=day - 1)
-    microseconds = int.from_bytes(record[28:30], "big") * 100 + int.from_bytes(record[61:62], "big", signed=True)
-    return (start - datetime.datetime(1970, 1, 1)) // datetime.timedelta(microseconds=1) + microseconds
+    """Returns the start of a record in us."""
+    return (begin_of(record) - instant("1970-01-01T00:00:00Z")) // datetime.timedelta(microseconds=1)
 
 
 def demand_headers(ring):

@@ -1,10 +1,8 @@
 """Compares a simulated survey day with the truth, after emulator, pseudo-terminal, daemon, archive and corrector."""
 
-import datetime
-import json
 import re
 
-from programs import IS_SANITIZED, TOP, Scratch, compare_truth, demand, read_json, rows, run
+from programs import IS_SANITIZED, TOP, Scratch, compare_truth, demand, events_of, instant, read_json, rows, run
 
 scenario = "tsukuba"
 # Sanitized programs run several times slower: a shorter day at a lower speed.
@@ -27,10 +25,9 @@ def words_at_stops(written):
     return re.findall(r"\): ([a-z_]+)$", part, re.M)
 
 
-def word_lengths_s(folder):
+def word_lengths_s(root):
     """Returns the time from each word of the signal in the event log to the next."""
-    events = [json.loads(line) for file in folder.glob("*.jsonl") for line in file.read_text().splitlines()]
-    times = sorted(datetime.datetime.fromisoformat(event["utc"][:26]) for event in events if event["type"] == "signal")
+    times = sorted(instant(event["utc"]) for event in events_of(root) if event["type"] == "signal")
     return [(after - before).total_seconds() for before, after in zip(times, times[1:])]
 
 
@@ -53,7 +50,7 @@ with Scratch() as scratch:
     words = words_at_stops(written)
     demand(f"demo.txt has the signal at each stop: {words}", len(words) == expected)
     demand(f"{words.count('go')} stops were after YOU CAN GO", words.count("go") >= expected - 1)
-    lengths = word_lengths_s(out / "data" / "events")
+    lengths = word_lengths_s(out / "data")
     demand(f"the log has {len(lengths) + 1} words, two for each stay, however fast time runs",
            2 * expected <= len(lengths) + 1 <= 2 * expected + 2 and min(lengths) >= 5)
 

@@ -7,22 +7,16 @@ not visited.
 
 import csv
 import datetime
-import json
-import math
 import pathlib
 import random
 import shutil
 import tomllib
 
-from programs import BIN, read_json, rows, run
+from programs import BIN, correct_survey, events_of, instant, read_json, rms, rows, run, write_events
 
 MISTAKES = tomllib.loads((pathlib.Path(__file__).resolve().parent / "mistakes.toml").read_text())["mistake"]
 MORE_SITES = 10
 LEAST_APART_MGAL = 5.0  # A slip between benchmarks that are nearer changes the table by less than its uncertainty.
-
-
-def instant(text):
-    return datetime.datetime.fromisoformat(text[:26].rstrip("Z") + "+00:00")
 
 
 def utc(time):
@@ -48,8 +42,7 @@ class Day:
         self.folder, self.draw = folder, random.Random(seed)
         self.survey = folder / "survey.toml"
         self.survey.write_text(self.survey.read_text().replace('occupations = "schedule.csv"', 'occupations = ""'))
-        self.log = next((folder / "events").glob("*.jsonl"))
-        events = [json.loads(line) for line in self.log.read_text().splitlines()]
+        events = events_of(folder)
         starts = [i for i, event in enumerate(events) if event["type"] == "start"]
         self.stays = [Stay(one[0], one[1:-1], one[-1]) for one in
                       (events[i:k] for i, k in zip(starts, starts[1:] + [len(events)]))]
@@ -83,7 +76,7 @@ class Day:
     def write(self):
         events = sorted((event for stay in self.stays for event in (stay.start, *stay.set_ups, stay.stop) if event),
                         key=lambda event: event["utc"])
-        self.log.write_text("".join(json.dumps(event) + "\n" for event in events + self.repairs))
+        write_events(self.folder, events + self.repairs)
         with open(self.folder / "sites.csv", "w", newline="") as text:
             table = csv.DictWriter(text, self.sites[0].keys(), lineterminator="\n")
             table.writeheader()
@@ -104,7 +97,7 @@ def late_stop(day, mistake, is_noticed):
     stay.stop["utc"] = utc(late)
     if is_noticed:
         day.repairs.append({"type": "retime", "utc": utc(late), "key": day.key_of(stay), "to": utc(stay.true_stop), "reason": "late"})
-    return {"kinds": {"moved_box"}, "sites": {stay.true_site}}
+    return {"kinds": {"moved_box"}, "sites": {stay.true_site}, "between": (stay.true_stop - datetime.timedelta(seconds=30), late)}
 
 
 def no_stop(day, mistake, is_noticed):
@@ -206,7 +199,8 @@ def is_said(findings, expected):
         if finding["kind"] == "not_visited" in expected["kinds"] and expected["sites"] & set(finding["text"].split(": ")[1].split(", ")):
             return True
         if finding["kind"] in expected["kinds"] and {finding["site"], finding["other_site"]} & expected["sites"]:
-            return True
+            begin, end = expected.get("between", (None, None))
+            return begin is None or begin <= instant(finding["time_utc"]) < end
     return False
 
 
@@ -218,14 +212,8 @@ def left_out_errors(folder, truth):
 
 def corrected(day, name):
     """Corrects the day and returns its findings and the errors of the stations left out."""
-    run(BIN / "a351-correct", "survey", day.survey, "--out", day.folder / name,
-        env={"PATH": str(day.folder)})  # A folder without gnuplot: no figures are drawn.
+    correct_survey(day.survey, day.folder / name)
     return read_json(day.folder / name / "result.json")["findings"], left_out_errors(day.folder / name, day.truth)
-
-
-def rms(values):
-    values = list(values)
-    return math.sqrt(sum(value * value for value in values) / len(values))
 
 
 def play(folder, scenario_file, seed, count=3, names=None):
