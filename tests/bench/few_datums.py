@@ -109,7 +109,8 @@ for (is_calibrated, scenario, scatter), days_of in cells.items():
         demand_within(f"{name}, {known} known, e/u", ratio, *HONEST_CELL)
         if (most := CELLS[scenario, scatter][is_calibrated].get(known)) is not None:
             demand_within(f"{name}, {known} known, error", error, 0.0, most)
-pooled = {known: [day for days_of in cells.values() for day in days_of[known]] for known in KNOWN}
+# The surveys of a unit are not independent of each other.
+pooled = {known: [[one for days_of in cells.values() for one in days_of[known][k]] for k in range(len(options.seeds))] for known in KNOWN}
 found = show("all", pooled)
 print(f"{'within 2 u':46}" + "".join(f"{100.0 * within:25.1f} %" for *_, within in found.values()))
 print(f"{len(options.seeds)} units; surveys by model: " + ", ".join(f"{model} {count}" for model, count in models.items()))

@@ -1,15 +1,16 @@
 """Each bench answers --help with purpose, example and exit status, and the commands in documents and helps are accepted."""
 
-import concurrent.futures
-import os
+import contextlib
+import io
 import re
+import runpy
 import shlex
-import subprocess
 import sys
 
 from programs import TOP, demand
 
 BENCH = TOP / "tests/bench"
+sys.path.insert(0, str(BENCH))
 MODULES = {"command_line.py", "simulated_units.py"}  # not programs
 PARTS = ("usage: ", "environment: ", "exit status: ", "example: ")
 OTHERS = re.compile(r"No module named '(numpy|scipy|PyEMD|obspy)")  # not packages of the tests
@@ -18,8 +19,16 @@ COMMAND = re.compile(r"python3 (tests/bench/\S+\.py[^`\n]*)")
 
 def help_of(words):
     """Runs a bench with these arguments and --help, which is read after them; returns status and output."""
-    done = subprocess.run([sys.executable, TOP / words[0], *words[1:], "--help"], capture_output=True, text=True)
-    return done.returncode, done.stdout, done.stderr.strip().splitlines()
+    sys.argv = [*words, "--help"]
+    said, failure, status = io.StringIO(), io.StringIO(), "no end at --help"
+    with contextlib.redirect_stdout(said), contextlib.redirect_stderr(failure):
+        try:
+            runpy.run_path(str(TOP / words[0]), run_name="__main__")
+        except SystemExit as end:
+            status = end.code
+        except ImportError as missing:
+            print(missing, file=sys.stderr)
+    return status, said.getvalue(), failure.getvalue().strip().splitlines()
 
 
 def looked_at(script):
@@ -42,8 +51,7 @@ def wrong_commands(page):
 
 
 scripts = sorted(f"tests/bench/{file.name}" for file in BENCH.glob("*.py") if file.name not in MODULES)
-with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-    found = dict(zip(scripts, pool.map(looked_at, scripts)))
+found = {script: looked_at(script) for script in scripts}
 for script, (_, missing) in found.items():
     if missing:
         print(f"{script} is not tested: {missing}")
