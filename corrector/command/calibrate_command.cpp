@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -95,6 +96,7 @@ struct AxisBiasChoice {
 
     /// Takes other biases if there are none yet, or if the sum of their variances is smaller.
     void offer(const std::optional<unit::AxisBias>& other, const std::string& from) {
+        if (other && bias) say_contradiction(*other, from);
         if (!other || (bias && bias->covariance.trace() <= other->covariance.trace())) return;
         bias = other;
         source = from;
@@ -107,6 +109,21 @@ struct AxisBiasChoice {
             source, text::fixed(bias->values(0), 1),
             text::fixed(std::sqrt(bias->covariance(0, 0)), 1), text::fixed(bias->values(1), 1),
             text::fixed(std::sqrt(bias->covariance(1, 1)), 1));
+    }
+
+private:
+    void say_contradiction(const unit::AxisBias& other, const std::string& from) const {
+        constexpr double kMost = 18.4;  // chi-square with 2 degrees of freedom, p = 1e-4
+        const auto difference = (other.values - bias->values).eval();
+        const auto covariance = (other.covariance + bias->covariance).eval();
+        const double square = difference.dot(covariance.ldlt().solve(difference));
+        if (square <= kMost) return;
+        print_warnings(
+            {text::message(
+                "the axis biases of {} are {} standard uncertainties from those of {}: are "
+                "axes and unit the same?",
+                from, text::fixed(std::sqrt(square), 0), source)},
+            "");
     }
 };
 
@@ -258,6 +275,19 @@ void calibrate_from_placement(unit::Calibration& calibration,
         std::cout << "all series: placement " << placement_text(*calibration.placement) << '\n';
 }
 
+/// Checks that a calibration can be written at a path: over no other file, for example an input.
+void require_output(const std::filesystem::path& out) {
+    require_file_option("--out", out);
+    if (!std::filesystem::exists(out)) return;
+    try {
+        static_cast<void>(unit::read_calibration(out));
+    } catch (const InputError&) {
+        throw InputError(fmt::format(
+            "--out = {}: exists and is no calibration file; allowed: a new file, or one to replace",
+            out.string()));
+    }
+}
+
 RecordCalibrationOptions record_options(const CalibrateOptions& options) {
     RecordCalibrationOptions records;
     records.files = options.records;
@@ -274,7 +304,11 @@ void calibrate(const CalibrateOptions& options) {
         throw InputError(
             "no record and no series; allowed: FILE..., --tilt FILE..., --tumble FILE..., "
             "--placement FILE...");
-    require_file_option("--out", options.out);
+    require_output(options.out);
+    if (options.records.empty() && (options.is_within_given || !options.power_on.empty()))
+        throw InputError(
+            fmt::format("{}: has no effect without a long record; allowed: with FILE...",
+                        options.power_on.empty() ? "--within" : "--power-on"));
     unit::Calibration calibration;
     calibration.program = "a351-correct " A351_VERSION;
     AxisBiasChoice axis_bias;

@@ -72,7 +72,7 @@ std::size_t peak_memory_kib() {
 void write_decimated(const DecimateOptions& options) {
     number_option("--factor", options.factor, 2, 1000);
     number_option("--stages", options.stages, 1, kMostStages);
-    if (!options.output.empty()) require_file_option("--output", options.output);
+    if (!options.output.empty()) require_file_option("--output", options.output, options.input);
     const signal::DecimationFilter filter = signal::design_decimation(options.factor);
     const double least = signal::least_length(filter, options.stages);
     SampleColumn column(options.input, options.column);

@@ -82,7 +82,7 @@ std::string report_csv(const eemd::Result& result) {
 
 void write_modes(const EmdCommandOptions& options) {
     eemd::Options eemd_options = decomposition(options);
-    require_file_option("--output", options.output);
+    require_file_option("--output", options.output, options.input);
     SampleColumn column(options.input, options.column, SampleColumn::Missing::refused);
     std::vector<double> signal, block;
     while (column.read(block)) signal.insert(signal.end(), block.begin(), block.end());

@@ -94,7 +94,8 @@ double number_option(std::string_view name, double value, double low, double hig
                                  text::shortest(value), text::shortest(low), text::shortest(high)));
 }
 
-void require_file_option(std::string_view name, const std::filesystem::path& path) {
+void require_file_option(std::string_view name, const std::filesystem::path& path,
+                         const std::filesystem::path& input) {
     using Type = std::filesystem::file_type;
     const Type type = std::filesystem::symlink_status(path).type();
     if (!path.has_filename() || (type != Type::not_found && type != Type::regular)) {
@@ -102,6 +103,10 @@ void require_file_option(std::string_view name, const std::filesystem::path& pat
             fmt::format("{} = {}: not a regular file; allowed: a file", name, path.string()));
     }
     require_folder(name, path, std::filesystem::absolute(path).parent_path(), "a file in a folder");
+    std::error_code none;
+    if (std::filesystem::equivalent(path, input, none))
+        throw InputError(
+            fmt::format("{} = {}: is the input; allowed: another file", name, path.string()));
 }
 
 void require_folder_option(std::string_view name, const std::filesystem::path& path) {

@@ -88,9 +88,11 @@ inline constexpr int kMostMembers = 1'000'000;
 
 /// Checks that a file can be written at a path; nothing is created.  An existing regular file is
 /// accepted.  The check finds slips, not missing permissions or a full disk.
-/// @throws InputError  the path is a folder or a device, or its folder is a file.  A symbolic link
-///                     is refused too, as NewFile does.
-void require_file_option(std::string_view name, const std::filesystem::path& path);
+/// @param input  file that the command reads; empty: none.
+/// @throws InputError  the path is a folder or a device, or its folder is a file, or it is the input.
+///                     A symbolic link is refused too, as NewFile does.
+void require_file_option(std::string_view name, const std::filesystem::path& path,
+                         const std::filesystem::path& input = {});
 
 /// The same for a folder, which may exist.
 /// @throws InputError  the path, or the longest part of it that exists, is not a folder.

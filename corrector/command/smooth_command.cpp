@@ -38,7 +38,7 @@ reading::SmoothTrend smooth_column(const SmoothOptions& options,
 
 void write_trend(const SmoothOptions& options) {
     number_option("--cutoff", options.cutoff, reading::kShortestCutoff, reading::kLongestCutoff);
-    if (!options.output.empty()) require_file_option("--output", options.output);
+    if (!options.output.empty()) require_file_option("--output", options.output, options.input);
     SampleColumn column(options.input, options.column);
     std::vector<double> samples, block;
     while (column.read(block)) samples.insert(samples.end(), block.begin(), block.end());

@@ -13,6 +13,7 @@
 #include "corrector/job/survey_file.hpp"
 #include "corrector/judgement/survey_findings.hpp"
 #include "corrector/model/model.hpp"
+#include "corrector/reading/row_warnings.hpp"
 #include "corrector/reduction/plate_and_pressure.hpp"
 #include "corrector/report/report.hpp"
 #include "corrector/result/anomalies.hpp"
@@ -64,8 +65,7 @@ void set_options(TableOptions& options, const std::vector<reading::SurveyRow>& r
     number_option("--datum-sd", survey.survey.network.datum_sd_mgal, adjustment::kLeastSd_mgal,
                   adjustment::kGreatestSd_mgal);
     double& reading_sd_mgal = survey.survey.priors.reading_sd_mgal;
-    if (!rows.front().instrument.empty())
-        reading_sd_mgal = adjustment::kGravimeterReadingSd_mgal;
+    if (!rows.front().instrument.empty()) reading_sd_mgal = adjustment::kGravimeterReadingSd_mgal;
     reading_sd_mgal = options.reading_sd_mgal.value_or(reading_sd_mgal);
     number_option("--reading-sd", reading_sd_mgal, adjustment::kLeastSd_mgal,
                   adjustment::kGreatestSd_mgal);
@@ -96,7 +96,7 @@ void correct_table(TableOptions options) {
          {std::pair("tide", survey.tide.series), std::pair("pressure", survey.reduction.pressure)})
         if (!file.empty()) sources.inputs.push_back(text::describe_input(role, file));
     sources.warnings = reading::position_warnings(rows, sites);
-    const std::vector<text::Message> far = reading::time_warnings(rows);
+    const std::vector<text::Message> far = reading::row_warnings(rows);
     sources.warnings.insert(sources.warnings.end(), far.begin(), far.end());
     if (auto doubt = tide::doubtful_tide(rows, sites, survey.tide); !doubt.empty())
         sources.warnings.push_back(std::move(doubt));

@@ -241,9 +241,30 @@ private:
         return finding;
     }
 
+    /// Returns the other reference if the fit holds two: nothing shows which of them is wrong.
+    [[nodiscard]] std::string rival_of(const std::string& site) const {
+        std::string rival;
+        for (std::size_t i = 0; i < rows_.size(); ++i) {
+            if (!choice_.in_use[i] || rows_[i].site == site || rows_[i].site == rival) continue;
+            if (!rival.empty()) return {};
+            rival = rows_[i].site;
+        }
+        return rival;
+    }
+
     [[nodiscard]] Finding reference(const Mistake& mistake) const {
         const SurveyRow& row = first(mistake);
         Finding finding = finding_of(mistake, FindingKind::reference, "reference", row);
+        if (finding.other_site = rival_of(row.site); !finding.other_site.empty()) {
+            finding.code = "references_contradict";
+            finding.text = text::message(
+                "the references of {} and {} contradict each other by {} +- {} mGal, or a stay "
+                "there "
+                "is bad; nothing shows which",
+                row.site, finding.other_site, in_mgal(std::abs(mistake.size_mgal), mistake.u_mgal),
+                in_mgal(mistake.u_mgal, mistake.u_mgal));
+            return finding;
+        }
         finding.size_mgal = -mistake.size_mgal;
         finding.text = text::message("the reference of {} is {}", row.site,
                                      off_by(-mistake.size_mgal, mistake.u_mgal));

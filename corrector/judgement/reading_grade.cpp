@@ -19,8 +19,9 @@ void add(ReadingGrade& reading, Grade grade, Reason reason) {
 }
 
 /// Adds that the operator or an amendment does not use the reading, or that it cannot be used.
-void add_refusals(ReadingGrade& reading, const model::CorrectedRow& row) {
-    if (row.row.is_flagged && !row.is_used)
+/// @param uses_flags  the marks of the operator count.
+void add_refusals(ReadingGrade& reading, const model::CorrectedRow& row, bool uses_flags) {
+    if (row.row.is_flagged && !row.is_used && uses_flags)
         add(reading, Grade::repeat,
             {"flagged", {}, text::message("marked by the operator as not to be used")});
     for (const std::string& note : row.row.notes) {
@@ -210,7 +211,7 @@ std::vector<ReadingGrade> grade_readings(const model::SurveyCorrection& result) 
     std::vector<ReadingGrade> readings;
     for (const model::CorrectedRow& row : result.rows) {
         ReadingGrade& reading = readings.emplace_back();
-        add_refusals(reading, row);
+        add_refusals(reading, row, result.options.use_flags);
         if (!is_day) {
             add_temperature(reading, row, corrects_rate);
             add_knock(reading, row.row);

@@ -8,6 +8,7 @@
 #include "corrector/judgement/mistake_search.hpp"
 #include "corrector/judgement/mistake_sentences.hpp"
 #include "corrector/judgement/physical_doubt.hpp"
+#include "corrector/judgement/still_box.hpp"
 #include "corrector/judgement/survey_remarks.hpp"
 #include "corrector/model/amended_survey.hpp"
 #include "corrector/model/calibration_use.hpp"
@@ -214,8 +215,9 @@ Search search(const model::SurveyCorrection& result, const SearchedSurvey& surve
                 amended_loso_mgal = score->loso_mgal;
         }
     }
-    if (auto finding = unusable(result, amended_loso_mgal))
-        findings.insert(findings.begin(), std::move(*finding));
+    auto useless = still_box(survey.rows);
+    if (!useless) useless = unusable(result, amended_loso_mgal);
+    if (useless) findings.insert(findings.begin(), std::move(*useless));
     if (auto finding = far_bias(result.rows)) findings.push_back(std::move(*finding));
     // A mistake that was found is a misfit of its own.
     if (!right) say_misfits(result, findings);

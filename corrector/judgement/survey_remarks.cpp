@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <set>
 
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/doubtful_site.hpp"
@@ -16,13 +15,19 @@ using reading::FindingKind;
 /// Says that the base has one stay only.
 std::optional<Finding> base_not_revisited(const model::SurveyCorrection& result) {
     constexpr std::size_t kFewestStays = 5;  // a shorter list is no survey day
-    std::set<std::pair<std::string, int>> stays;
-    for (const model::CorrectedRow& row : result.rows)
-        stays.emplace(row.row.site, row.row.occupation);
     const std::string& base = result.options.base;
-    const auto is_base = [&](const auto& stay) { return stay.first == base; };
-    if (stays.size() < kFewestStays || std::ranges::count_if(stays, is_base) != 1)
-        return std::nullopt;
+    std::size_t stays = 0, at_base = 0;
+    const reading::SurveyRow* before = nullptr;
+    for (const model::CorrectedRow& row : result.rows) {
+        // The numbers may be wrong, but what was read in between is not.
+        const bool is_same = before != nullptr && before->site == row.row.site &&
+                             before->occupation == row.row.occupation;
+        before = &row.row;
+        if (is_same) continue;
+        ++stays;
+        if (row.row.site == base) ++at_base;
+    }
+    if (stays < kFewestStays || at_base != 1) return std::nullopt;
     Finding finding{
         .kind = FindingKind::base_not_revisited, .code = "base_not_revisited", .site = base};
     finding.text = text::message(

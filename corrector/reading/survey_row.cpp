@@ -153,44 +153,4 @@ void set_backward_rates(std::vector<SurveyRow>& rows) {
     }
 }
 
-std::vector<text::Message> position_warnings(const std::vector<SurveyRow>& rows,
-                                             const std::vector<text::Site>& sites) {
-    std::vector<text::Message> warnings;
-    for (const SurveyRow& row : rows) {
-        const text::Site* const site = text::find_site(sites, row.site);
-        if (site == nullptr || (site->is_placed && site->has_altitude)) continue;
-        text::Message warning =
-            site->is_placed
-                ? text::message(
-                      "{}: no height in the table of sites; the mean of the others is used",
-                      row.site)
-                : text::message(
-                      "{}: no position in the table of sites; the mean of the others is used",
-                      row.site);
-        if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end())
-            warnings.push_back(std::move(warning));
-    }
-    return warnings;
-}
-
-std::vector<text::Message> time_warnings(const std::vector<SurveyRow>& rows) {
-    using Day = std::chrono::sys_days;  // A difference of days holds any two times.
-    constexpr std::chrono::days kFar(20);
-    const auto day = [&rows](std::size_t i) -> Day {
-        return std::chrono::floor<std::chrono::days>(rows[i].time);
-    };
-    std::vector<text::Message> warnings;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        std::chrono::days least = std::chrono::days::max();
-        if (i > 0) least = day(i) - day(i - 1);
-        if (i + 1 < rows.size()) least = std::min(least, day(i + 1) - day(i));
-        if (least > kFar)
-            warnings.push_back(text::message(
-                "{} ({}): {} is {} days from every other reading: check its year and month",
-                rows[i].site, rows[i].occupation, to_rfc3339(rows[i].time), least.count()));
-    }
-    if (4 * warnings.size() > rows.size()) warnings.clear();
-    return warnings;
-}
-
 }  // namespace a351::corrector::reading

@@ -166,16 +166,4 @@ inline constexpr double kGreatestInstrumentHeight_m = 10.0;
 ///              is not checked.
 void set_backward_rates(std::vector<SurveyRow>& rows);
 
-/// Returns a warning for every site of the rows without a known position, once per site, in order
-/// of the rows.  The site has the mean position of the others, which is good enough for the tide
-/// and not for a map.  A site that is not in the table gets no warning.
-[[nodiscard]] std::vector<text::Message> position_warnings(const std::vector<SurveyRow>& rows,
-                                                           const std::vector<text::Site>& sites);
-
-/// Returns a warning for every row that is more than 20 days from all others: a year or month that was
-/// mistyped for one reading makes it so.  Empty if more than a quarter of the rows are: then it is a
-/// series of single readings.
-/// @param rows  in order of time.
-[[nodiscard]] std::vector<text::Message> time_warnings(const std::vector<SurveyRow>& rows);
-
 }  // namespace a351::corrector::reading

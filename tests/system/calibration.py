@@ -145,6 +145,11 @@ with Scratch() as scratch:
     said = correct("calibrate", "--tumble", "rough", "--out", "rough.toml", cwd=scratch)
     print(said.stderr.strip())
     demand("a gravity without uncertainty gives a warning of one line", said.stderr.count("\n") == 1 and "lacks that of gravity" in said.stderr)
+    (scratch / "turned-axis.toml").write_text(text.replace("values = [", "values = [-").replace("[--", "["))
+    said = correct("calibrate", "--tumble", "tumble", "--merge", "turned-axis.toml", "--out", "best.toml", cwd=scratch).stderr
+    demand(f"contradicting biases are named: {said.strip()}", "the axis biases of turned-axis.toml are" in said)
+    refused("is no calibration file", CORRECT, "calibrate", "--tumble", "tumble", "--out", "tumble/sites.csv", cwd=scratch)
+    refused("--power-on: has no effect", CORRECT, "calibrate", "--tilt", "tilt-series", "--power-on", "2017-06-02T00:00:00Z", "--out", "no.toml", cwd=scratch)
     table = (scratch / "tumble" / "sites.csv").read_text()
     (scratch / "tumble" / "sites.csv").write_text(table.replace("979763", "983200"))
     said = correct("calibrate", "--tumble", "tumble", "--out", "wrong.toml", cwd=scratch)

@@ -197,6 +197,8 @@ TEST_CASE("a reading that the operator marked is graded repeat unless it is in t
     CHECK(first_grade(result) == Grade::trust);
     result.rows[0].is_used = false;
     CHECK(first_grade(result) == Grade::repeat);
+    result.options.use_flags = false;  // It has no reference that the fit holds.
+    CHECK(first_grade(result) == Grade::trust);
 }
 
 TEST_CASE("readings of one station that disagree are both graded care") {

@@ -73,6 +73,54 @@ TEST_CASE("a wrong reference is named with its size and an amendment") {
     }
 }
 
+TEST_CASE("of two references that contradict each other neither is named as the wrong one") {
+    for (const std::string wrong : {"B", "S2"}) {
+        Day day;
+        for (std::size_t i = 0; i < day.rows.size(); ++i) {
+            reading::SurveyRow& row = day.rows[i];
+            const reading::SurveyRow other = Day().rows[i % 2 == 0 ? 0 : 2];
+            day.off(i, (*other.reference - *row.reference).value());
+            row.site = row.listed.site = other.site;
+            row.occupation = static_cast<int>(i / 2 + 1);
+            row.reference = *other.reference + MilliGal(row.site == wrong ? 50.0 : 0.0);
+        }
+        const auto findings = day.findings("network");
+        const auto found = std::ranges::find(findings, "references_contradict", &Finding::code);
+        for (const Finding& one : findings) UNSCOPED_INFO(one.text.english());
+        REQUIRE(found != findings.end());
+        CHECK(std::set{found->site, found->other_site} == std::set<std::string>{"B", "S2"});
+        CHECK(found->text.english().find("contradict each other by ") != std::string::npos);
+        CHECK(found->amendment.empty());
+    }
+}
+
+TEST_CASE("stays at several benchmarks of a box that did not move make a day unusable") {
+    Day day;
+    const auto is_still = [&day] { return day.findings().front().code == "still_box"; };
+    const auto level = [&day](std::size_t i, double g) {
+        day.rows[i].record->x.mean = StandardGravity(g);
+    };
+    for (std::size_t i = 0; i < day.rows.size(); ++i) {
+        day.rows[i].acceleration = day.rows[0].acceleration;
+        day.rows[i].record.emplace();
+        level(i, 1e-4 * static_cast<double>(i));  // 0.0057 deg from its neighbours
+    }
+    CHECK_FALSE(is_still());
+    for (std::size_t i = 0; i < day.rows.size(); ++i) level(i, 0.0);
+    CHECK(day.findings().front().text ==
+          "the box did not move from B (1) to B (3), 12 stays one after the other at different "
+          "benchmarks: check date, hour and zone of the stays");
+    CHECK(day.findings().front().is_headline);
+    for (std::size_t i = 0; i < day.rows.size(); i += 3) day.off(i, i % 2 == 0 ? 1000.0 : 2000.0);
+    CHECK_FALSE(is_still());  // Two in a row are not enough.
+    for (std::size_t i = 0; i < day.rows.size(); ++i)
+        day.rows[i].acceleration = day.rows[i - i % 4].acceleration;
+    day.off(4, 1000.0);
+    CHECK(is_still());
+    for (auto& row : day.rows) row.record.reset();  // A table of averages says nothing of a box.
+    CHECK_FALSE(is_still());
+}
+
 TEST_CASE("a reading under another site's name is named with that site") {
     Day day;
     const text::Site& other = day.sites.back();

@@ -1,7 +1,7 @@
 #include <filesystem>
 #include "tests/support/catch.hpp"
 
-#include "corrector/reading/survey_row.hpp"
+#include "corrector/reading/row_warnings.hpp"
 #include "protocol/core/input_error.hpp"
 #include "tests/support/temporary_directory.hpp"
 
@@ -99,13 +99,14 @@ TEST_CASE("a bad table of observations is refused with line, column and value") 
     CHECK_THROWS_AS(file.read(), InputError);
 }
 
-TEST_CASE("a row far from all others in time is named, rows of a series of single readings are not") {
+TEST_CASE(
+    "a row far from all others in time is named, rows of a series of single readings are not") {
     const auto warnings = [](const std::string& second, const std::string& last) {
         std::string rows = kTableHeader;
         for (const std::string& time : {std::string("2020-03-01T00:00:00Z"), second,
                                         std::string("2020-03-01T02:00:00Z"), last})
             rows += "A,1,0," + time + ",0,981700,42.5\n";
-        return time_warnings(TableFile(rows).read());
+        return row_warnings(TableFile(rows).read());
     };
     CHECK(warnings("2020-03-01T01:00:00Z", "2020-03-21T02:00:00Z").empty());
     const auto of_year = warnings("2010-03-01T01:00:00Z", "2020-03-01T03:00:00Z");
@@ -116,6 +117,30 @@ TEST_CASE("a row far from all others in time is named, rows of a series of singl
     CHECK(warnings("2020-03-01T01:00:00Z", "2020-03-22T02:00:00Z").size() == 1);
     CHECK(warnings("1690-03-01T01:00:00Z", "2020-03-01T03:00:00Z").size() == 1);
     CHECK(warnings("2010-03-01T01:00:00Z", "2020-04-01T02:00:00Z").empty());
+}
+
+TEST_CASE("a temperature far from the others and an earlier stay with a later number are named") {
+    const auto warnings = [](const std::string& numbers, const std::string& degc,
+                             const std::string& last_hour = "03") {
+        const std::vector<std::string> hours{"00", "01", "02", last_hour};
+        std::string rows = kTableHeader;
+        for (std::size_t i = 0; i < 4; ++i)
+            rows += fmt::format("A,{},0,2020-03-01T{}:00:00Z,0,981700,{}\n", numbers[i], hours[i],
+                                i == 2 ? degc : "42.5");
+        return text::in_english(row_warnings(TableFile(rows).read()));
+    };
+    CHECK(warnings("1234", "52.5").empty());
+    CHECK(
+        warnings("1234", "0") ==
+        std::vector<std::string>{
+            "A (3): its temperature of 0.00 degC is far from the median of 42.50 degC: check it"});
+    CHECK(warnings("2345", "42.5", "10").empty());
+    CHECK(warnings("1432", "42.5").size() == 1);
+    CHECK(warnings("2341", "42.5") ==
+          std::vector<std::string>{"A (1), 2020-03-01T03:00:00Z, is later than A (2), "
+                                   "2020-03-01T00:00:00Z: check hours and zone of both"});
+    CHECK(warnings("4111", "42.5", "10").size() == 1);
+    CHECK(warnings("1121", "42.5", "10").empty());  // 8 h after the second stay
 }
 
 TEST_CASE("the scatter of an average is that of its readings divided by the root of their number") {

@@ -1,0 +1,57 @@
+#include "corrector/judgement/still_box.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "protocol/text/aligned_text.hpp"
+
+namespace a351::corrector::judgement {
+namespace {
+
+using reading::SurveyRow;
+
+constexpr double kLevel_deg = 0.005;
+constexpr MilliGal kNorm(10.0);
+constexpr std::size_t kFewestStill = 4;
+
+bool has_moved(const SurveyRow& one, const SurveyRow& other) {
+    if (!one.record || !other.record || one.face != other.face) return true;
+    const double x = (other.record->x.mean - one.record->x.mean).value(),
+                 y = (other.record->y.mean - one.record->y.mean).value();
+    const double norm_mgal = (other.measured() - one.measured()).value();
+    return !(std::hypot(x, y) * 180.0 / std::numbers::pi <= kLevel_deg &&
+             std::abs(norm_mgal) <= kNorm.value());
+}
+
+std::string name_of(const SurveyRow& row) {
+    return fmt::format("{} ({})", row.site, row.occupation);
+}
+
+}  // namespace
+
+std::optional<reading::Finding> still_box(const std::vector<SurveyRow>& rows) {
+    std::size_t first = 0, stays = 1;
+    for (std::size_t i = 1; i <= rows.size(); ++i) {
+        if (i < rows.size() && !has_moved(rows[i - 1], rows[i])) {
+            if (rows[i].site != rows[i - 1].site) ++stays;
+            continue;
+        }
+        if (stays >= kFewestStill) {
+            reading::Finding finding{.kind = reading::FindingKind::unusable_day,
+                                     .code = "still_box",
+                                     .is_headline = true};
+            finding.text = text::message(
+                "the box did not move from {} to {}, {} stays one after the other at different "
+                "benchmarks: check date, hour and zone of the stays",
+                name_of(rows[first]), name_of(rows[i - 1]), stays);
+            return finding;
+        }
+        first = i;
+        stays = 1;
+    }
+    return std::nullopt;
+}
+
+}  // namespace a351::corrector::judgement
