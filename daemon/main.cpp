@@ -43,6 +43,7 @@
 #include "daemon/survey/operator_signal.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/core/normal_gravity.hpp"
+#include "protocol/text/doubtful_site.hpp"
 #include "protocol/text/message.hpp"
 
 namespace {
@@ -192,7 +193,11 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
     const recorder::Parts parts{config, clock, link, ovens, store, live};
     const auto snapshot = [&] { return recorder::snapshot(parts); };
     const std::filesystem::path events = config.storage.root / "events";
-    const std::vector<events::Event> logged = events::read_events(events).events;
+    const events::EventLog read = events::read_events(events);
+    for (const events::EventDamage& damage : read.damage)
+        log.error("{}:{}: not an event, left out; look at it, it may be a stay",
+                  damage.file.string(), damage.line);
+    const std::vector<events::Event>& logged = read.events;
     exchange = live::last_exchange(logged);
     survey::Occupations occupations(store, config.survey.sites, logged,
                                     recorder::occupation_options(config));
@@ -348,6 +353,11 @@ int main(int argc, char** argv) {
         }
         const config::Config config = config::read_config(config_file);
         if (is_check) {
+            const auto station = recorder::occupation_options(config).station;
+            if (const auto doubt = text::doubtful_site(config.survey.sites, &*station);
+                !doubt.empty())
+                fmt::print(stderr, "a351d: {}: {}\n", config.survey.sites_file.string(),
+                           text::in_words(doubt));
             std::puts("ok");
             return kDone;
         }

@@ -11,8 +11,13 @@ namespace {
 constexpr std::chrono::hours kWarmUp{12};
 
 TextFile copy_of(const std::filesystem::path& file, const char* name) {
+    std::error_code error;
     // An operator may keep the list anywhere, and name it by a link.
-    const OpenFile original(std::filesystem::canonical(file));
+    const std::filesystem::path place = std::filesystem::canonical(file, error);
+    if (error)
+        throw std::system_error(error, "the list or calibration " + file.string() +
+                                           " is part of the copy: put it back");
+    const OpenFile original(place);
     return {name, original.read(0, original.size())};
 }
 

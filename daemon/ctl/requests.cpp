@@ -15,10 +15,13 @@ std::string sentence_of(const json& object, const char* key, const char* parts) 
         text::parse_message(object.value(parts, json()), english->get_ref<const std::string&>()));
 }
 
+void throw_no_daemon() {
+    throw NoDaemon(text::tr("the program at this address is not a351d; check --url"));
+}
+
 Answer answer_of(const Reply& reply) {
     Answer answer{json::parse(reply.body, nullptr, false), ""};
-    if (!answer.body.is_object())
-        throw NoDaemon(text::tr("the program at this address is not a351d; check --url"));
+    if (!answer.body.is_object() || answer.body.empty()) throw_no_daemon();
     if (reply.status == 200) return answer;
     answer.error = sentence_of(answer.body, "error", "error_parts");
     if (answer.error.empty())
@@ -32,6 +35,7 @@ Answer send_change(const Client& client, const std::string& token, const std::st
     if (used.empty()) {
         Answer given = answer_of(client.get("/api/token"));
         if (!given.error.empty()) return given;
+        if (!given.body.contains("token")) throw_no_daemon();
         used = given.body.value("token", "");
     }
     // Arguments may be invalid UTF-8; invalid parts become U+FFFD, which the daemon does not know.
@@ -41,7 +45,8 @@ Answer send_change(const Client& client, const std::string& token, const std::st
 
 std::string message_of(const Answer& answer) {
     const std::string said = sentence_of(answer.body, "message", "message_parts");
-    return printable(said.empty() ? text::tr("done") : said);
+    if (said.empty()) throw_no_daemon();
+    return printable(said);
 }
 
 }  // namespace a351::daemon::ctl

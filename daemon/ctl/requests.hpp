@@ -7,6 +7,10 @@
 
 namespace a351::daemon::ctl {
 
+/// Says that the program that answered is not the daemon.
+/// @throws NoDaemon  always.
+[[noreturn]] void throw_no_daemon();
+
 /// An answer of the daemon.
 struct Answer {
     nlohmann::json body;  ///< An object.

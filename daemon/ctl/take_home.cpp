@@ -4,10 +4,13 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdint>
+#include <filesystem>
+#include <fstream>
 #include <functional>
 #include <memory>
 #include <span>
@@ -60,6 +63,19 @@ std::string disk_trouble(const std::system_error& error, const std::filesystem::
     return text::tr("the copy could not be written: {}; nothing was saved", error.what());
 }
 
+/// Returns true if a file is an earlier copy of the day of a bundle: its folder has the same name up to
+/// the time.
+bool is_of_the_day(const std::filesystem::path& file, const std::filesystem::path& bundle) {
+    // ustar (POSIX.1-1988): the name is in the first 100 bytes of a header, "ustar" at 257.
+    std::array<char, 512> header{};
+    std::ifstream(file, std::ios::binary).read(header.data(), header.size());
+    if (std::string_view(header.data() + 257, 5) != "ustar") return false;
+    header[100] = '\0';
+    const auto day_of = [](const std::string& name) { return name.substr(0, name.rfind('T')); };
+    const std::string folder = std::filesystem::path(header.data()).begin()->string();
+    return day_of(folder) == day_of(bundle.stem());
+}
+
 /// The copy under a temporary name.
 class Copy {
 public:
@@ -74,6 +90,12 @@ public:
         if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there))
             throw std::runtime_error(
                 text::tr("{} is not a file; nothing was saved", out_.string()));
+        if (std::filesystem::exists(there) && !is_of_the_day(out_, name))
+            throw std::runtime_error(
+                text::tr("{} exists and is not a copy of this day; nothing was saved; name another "
+                         "file, or a "
+                         "folder",
+                         out_.string()));
         const auto free = files_.free_bytes(folder_);
         if (free && *free < size)
             throw std::system_error(ENOSPC, std::generic_category(), out_.string());

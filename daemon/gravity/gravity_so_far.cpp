@@ -71,12 +71,13 @@ GravitySoFar::GravitySoFar(GravityOptions options) : options_(std::move(options)
 
 void GravitySoFar::use(const GravityOptions& options) {
     const std::lock_guard lock(mutex_);
-    if (options.command == command_ && !command_.empty()) return;
-    command_ = options.command;
-    reason_ = command_.empty() ? options.reason : "not_yet";
-    cause_.clear();
-    document_.clear();
-    if (last_run_) now_ = steady_clock::now();
+    if (options.command != command_ || command_.empty()) {
+        command_ = options.command;
+        reason_ = command_.empty() ? options.reason : "not_yet";
+        cause_.clear();
+        document_.clear();
+    }
+    if (last_run_) now_ = steady_clock::now();  // The list or the calibration may be another one.
     woken_.notify_all();
 }
 

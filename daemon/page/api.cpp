@@ -252,6 +252,8 @@ Response Api::change(std::string_view path, const std::string& body) {
     if (path == "/api/occupation/start") {
         const auto order = parse_order(body, {"site", "operator", "note", "at", "set_ups", "face"});
         if (order.site.empty()) throw InputError("body: key site is missing");
+        if (const auto missing = missing_samples(); !order.at && !missing.empty())
+            return refusal(409, missing);
         outcome = occupations.start(order.site, order.remark, order.at, order.set_ups, order.face);
         if (outcome.kind == survey::Outcome::Kind::refused && occupations.running())
             outcome.message += move_since_start();
@@ -281,6 +283,16 @@ Response Api::change(std::string_view path, const std::string& body) {
     }
     if (outcome.kind == survey::Outcome::Kind::done && sources_.changed) sources_.changed();
     return answer_of(outcome, occupations.running());
+}
+
+/// Says since when no samples have come, so that a stay cannot begin now; empty if they come.
+text::Message Api::missing_samples() const {
+    constexpr int kPatience = 4;  // A plug that is loose for a moment is no reason to refuse.
+    const status::Status status = sources_.status();
+    if (!status.last_sample || status.now - *status.last_sample <= kPatience * sources_.stale_after)
+        return {};
+    return text::message("no samples have come since {}, so a stay cannot begin now",
+                         to_rfc3339(*status.last_sample, 0));
 }
 
 /// Says when the box of the running stay was carried away; empty if it was not seen.
@@ -324,7 +336,11 @@ survey::Outcome Api::change_stay(std::string_view change, const std::string& bod
     const survey::Named stay{order.key, order.site};
     if (change == "discard") return occupations.discard(stay, order.remark);
     if (change == "restore") return occupations.restore(stay, order.remark);
-    if (change == "resume") return occupations.resume(stay, order.remark);
+    if (change == "resume") {
+        if (const auto missing = missing_samples(); !missing.empty())
+            return {survey::Outcome::Kind::refused, missing};
+        return occupations.resume(stay, order.remark);
+    }
     if (change == "not_moved") return occupations.not_moved(stay, order.remark);
     return occupations.retime(stay, order.from, order.to, order.remark);
 }

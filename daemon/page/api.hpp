@@ -79,6 +79,7 @@ public:
 private:
     [[nodiscard]] nlohmann::json status_now() const;
     [[nodiscard]] survey::SoFar so_far_now() const;
+    [[nodiscard]] text::Message missing_samples() const;
     [[nodiscard]] text::Message move_since_start() const;
     [[nodiscard]] survey::Outcome check(const Order& order) const;
     [[nodiscard]] Response route(const Request& request);

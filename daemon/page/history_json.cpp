@@ -91,7 +91,9 @@ std::string oven_body(std::string_view channel, const std::vector<live::OvenPoin
 /// the Earth's gravity.
 std::string norm_body(const live::Record& live, UtcTime from, UtcTime to, std::size_t most) {
     const double values = seconds_between(from, to) / verdict::kLiveStepSeconds;
-    const double joined = std::max(1.0, std::ceil(values / static_cast<double>(most)));
+    constexpr double kMostJoined = 1e6;  // 23 days; an instant of the query may be centuries away.
+    const double joined =
+        std::clamp(std::ceil(values / static_cast<double>(most)), 1.0, kMostJoined);
     const auto interval = from_seconds(joined * verdict::kLiveStepSeconds);
     std::string points = "[";
     std::optional<UtcTime> begin;

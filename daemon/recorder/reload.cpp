@@ -9,7 +9,9 @@ survey::OccupationOptions occupation_options(const config::Config& config) {
     return {.planned = config.survey.planned,
             .planned_set_ups = config.survey.set_ups,
             .faces = config.survey.faces,
-            .sites_file = config.survey.sites_file};
+            .sites_file = config.survey.sites_file,
+            .station = text::Site{"[station]", config.station.longitude, config.station.latitude,
+                                  config.station.elevation, std::nullopt}};
 }
 
 gravity::GravityOptions gravity_options(const config::Config& config) {

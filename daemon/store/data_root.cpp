@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
@@ -20,7 +21,8 @@ void lock(const std::filesystem::path& root, int descriptor) {
 
 }  // namespace
 
-DataRootLock::DataRootLock(files::FileLayer& files, const std::filesystem::path& root) {
+DataRootLock::DataRootLock(files::FileLayer& files, const std::filesystem::path& root)
+    : root_(root) {
     for (const char* name : kFolders) files.create_directories(root / name);
     files.sync_directory(root);  // A start that was killed may not have synced it.
     // The layer refuses a link in place of a folder, which the lock would follow.
@@ -39,6 +41,13 @@ DataRootLock::DataRootLock(files::FileLayer& files, const std::filesystem::path&
 
 DataRootLock::~DataRootLock() {
     for (const int descriptor : descriptors_) close(descriptor);
+}
+
+bool DataRootLock::is_in_place() const noexcept {
+    struct stat locked {
+    }, named{};
+    return ::fstat(descriptors_.front(), &locked) == 0 && ::stat(root_.c_str(), &named) == 0 &&
+           locked.st_dev == named.st_dev && locked.st_ino == named.st_ino;
 }
 
 int DataRootLock::open(const std::filesystem::path& root, int folder,

@@ -28,11 +28,15 @@ public:
     DataRootLock(const DataRootLock&) = delete;
     DataRootLock& operator=(const DataRootLock&) = delete;
 
+    /// Returns true if the path still leads to the locked folder.
+    [[nodiscard]] bool is_in_place() const noexcept;
+
 private:
     int open(const std::filesystem::path& root, int folder, const std::filesystem::path& name,
              int flags);
 
-    std::vector<int> descriptors_;
+    std::filesystem::path root_;
+    std::vector<int> descriptors_;  ///< The first is that of the root.
 };
 
 }  // namespace a351::daemon::store

@@ -124,6 +124,11 @@ void Store::fill(status::Status& status) {
     status.disk_reserve_trouble = reserve.trouble;
 
     report(journal, archive, keeper.trouble, reserve.is_space_short, status);
+    if (!lock_.is_in_place())
+        status.fail(
+            text::message("storage.root was moved or deleted while data are recorded into it: put "
+                          "it back at once, "
+                          "or stop a351d first"));
 }
 
 }  // namespace a351::daemon::store

@@ -178,6 +178,12 @@ Outcome Occupations::start(std::string_view entered, const Remark& remark,
     if (running() && running()->number > 1)
         outcome.message +=
             text::message("; the site was occupied before: stay {}", running()->number);
+    for (const auto& one : list()) {
+        if (!at || !running() || one.set_ups.front().start <= running()->start) continue;
+        outcome.message += text::message("; {} began later, at {}: give the stop a time before it",
+                                         named(one), shown(one.set_ups.front().start));
+        break;
+    }
     return outcome;
 }
 
@@ -255,14 +261,14 @@ Outcome Occupations::add_site(const text::Site& site) {
 }
 
 void Occupations::use(std::vector<text::Site> sites, const OccupationOptions& options) {
-    take(std::move(sites));
     options_ = options;
+    take(std::move(sites));
     ++changes_;
 }
 
 void Occupations::take(std::vector<text::Site> sites) {
     sites_ = std::move(sites);
-    doubtful_site_ = text::doubtful_site(sites_);
+    doubtful_site_ = text::doubtful_site(sites_, options_.station ? &*options_.station : nullptr);
 }
 
 void Occupations::end_at_exchange(events::Event event) {

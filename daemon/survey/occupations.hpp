@@ -47,6 +47,9 @@ struct Named {
 /// moved.
 inline constexpr Nanoseconds kLongestResume = std::chrono::minutes(10);
 
+/// Farthest that a time of a stay is moved.  Reason: farther away is another day, by a mistyped date.
+inline constexpr Nanoseconds kFarthestRetime = std::chrono::hours(24);
+
 /// Length of each set-up of a stay with a plan of its own.  Reason: two whole minutes between the
 /// disturbances give a set-up a scatter, and a placement test of twenty fits into an hour.
 inline constexpr Nanoseconds kTestSetUp = std::chrono::minutes(3);
@@ -58,6 +61,8 @@ struct OccupationOptions {
     /// ones have the last face.
     std::string faces = "+";
     std::filesystem::path sites_file = {};  ///< List that gets new sites; empty: there is none.
+    std::optional<text::Site> station =
+        {};  ///< Position of the configuration, compared with the list.
 };
 
 /// Starts and stops occupations.  Every change is an event, which the recorder commits before the

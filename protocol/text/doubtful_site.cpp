@@ -74,11 +74,12 @@ bool differ_in_writing(std::string_view one, std::string_view other) {
     return one != other && folded(one) == folded(other);
 }
 
-Message doubtful_site(const std::vector<Site>& sites) {
+Message doubtful_site(const std::vector<Site>& sites, const Site* station) {
     constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
     std::vector<const Site*> placed;
     for (const Site& site : sites)
         if (site.is_placed) placed.push_back(&site);
+    if (station != nullptr && !placed.empty()) placed.push_back(station);
     const auto from = [](const Site& site, const Site& other) {
         return distance(site, other.latitude, other.longitude).value();
     };

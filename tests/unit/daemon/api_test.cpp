@@ -41,6 +41,21 @@ TEST_CASE("an occupation is started, set up again, renamed and stopped by POST")
     CHECK(page.recorder.log.size() == 9);
 }
 
+TEST_CASE("no stay begins while no samples come") {
+    Page page;
+    page.status.last_sample = minute(60);
+    page.status.now = minute(60) + 5 * config::kStaleAfter;
+    CHECK(is(page.ask(post("/api/occupation/start", R"({"site":"No.0"})"), 409), "/error",
+             R"("no samples have come since 2026-03-14T09:00:00Z, so a stay cannot begin now")"));
+    const std::string earlier = R"({"site":"No.0","at":"2026-03-14T08:40:00Z"})";
+    page.ask(post("/api/occupation/start", earlier));
+    page.ask(post("/api/occupation/stop", "{}"));
+    const std::string key = R"({"key":"20260314T084000Z"})";
+    page.ask(post("/api/occupation/resume", key), 409);
+    page.status.now = minute(60);
+    page.ask(post("/api/occupation/resume", key));
+}
+
 TEST_CASE("the plan and the face that were entered at a start are in the log") {
     Page page;
     const auto start = [&](const std::string& more, int expected) {
@@ -182,9 +197,8 @@ struct StayPage : Page {
 
 TEST_CASE_METHOD(StayPage, "what was looked at is not shown again, also after a restart") {
     stop();
-    gravity_so_far =
-        R"({"contradictions":[{"code":"reference","key":"20260314T081000Z",)"
-        R"("text":"No.1 is 71.0 mGal off"}]})";
+    gravity_so_far = R"({"contradictions":[{"code":"reference","key":"20260314T081000Z",)"
+                     R"("text":"No.1 is 71.0 mGal off"}]})";
     // One of another day is not to be cleared up now.
     const std::string of_today = gravity_so_far;
     gravity_so_far.replace(gravity_so_far.rfind("20260314"), 8, "20260313");

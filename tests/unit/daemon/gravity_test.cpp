@@ -144,6 +144,16 @@ TEST_CASE("another list of sites is used at once, and figures of the old one are
     CHECK(comes_true([&] { return stays_of(gravity) == "[1]"; }));
     gravity.use(says("[2]"));
     CHECK(comes_true([&] { return stays_of(gravity) == "[2]"; }));
+    // The same command, after its list was changed.
+    const test::TemporaryDirectory folder;
+    const GravityOptions of_file{
+        .command = {"/bin/cat", folder.write("answer", R"({"reason":null,"stays":[3]})").string()}};
+    gravity.use(of_file);
+    CHECK(comes_true([&] { return stays_of(gravity) == "[3]"; }));
+    folder.write("answer", R"({"reason":null,"stays":[4]})");
+    gravity.use(of_file);
+    CHECK(stays_of(gravity) == "[3]");
+    CHECK(comes_true([&] { return stays_of(gravity) == "[4]"; }));
     gravity.use({.command = {}, .reason = "no_sites"});
     CHECK(parsed(gravity).at("reason") == "no_sites");
     CHECK(stays_of(gravity) == "[]");

@@ -160,6 +160,9 @@ TEST_CASE("a wrong history query is refused with an error that names the key") {
         return std::string("none");
     };
     CHECK(trouble("channel=x") == "none");
+    const auto of_centuries = json::parse(
+        history_json(live, "channel=norm&points=1&from=1700-01-01T00:00:00Z", minute(1)));
+    CHECK(of_centuries["interval_s"].get<double>() > 0.0);
     for (const auto& [query, part] :
          {std::pair("", "channel"), std::pair("channel=w", "channel = w"),
           std::pair("channel=x&points=0", "points = 0; allowed: 1 to 4000"),

@@ -245,11 +245,23 @@ TEST_CASE_METHOD(Survey, "a stay is restored or moved only where no other stay i
     CHECK(mentions(occupations.retime(of(15), minute(19), {}, {}), "would overlap No.0"));
     CHECK(mentions(occupations.retime(of(15), minute(24), {}, {}), "is not before the end"));
     CHECK(mentions(occupations.retime(of(15), {}, minute(61), {}), "later than the last sample"));
+    CHECK(mentions(occupations.retime(of(15), minute(20) - std::chrono::hours(25), {}, {}),
+                   "is more than a day from"));
     CHECK(occupations.retime(of(15), {}, {}, {}).kind == Kind::refused);
     const auto moved = occupations.list().back();
     CHECK(moved.set_ups.front().start == minute(20));
     CHECK(moved.set_ups.back().end == minute(24));
     CHECK(moved.key == of(15).key);
+}
+
+TEST_CASE_METHOD(Survey, "a start before finished stays is told where its stop has to be") {
+    occupations.start("No.0", {}, minute(10));
+    occupations.stop({}, minute(20));
+    CHECK(mentions(
+        occupations.start("No.1", {}, minute(5)),
+        "No.0 (stay 1) began later, at 2026-03-14T08:10:00.0Z: give the stop a time before it"));
+    occupations.stop({}, minute(8));
+    CHECK_FALSE(mentions(occupations.start("No.1", {}, minute(30)), "later"));
 }
 
 TEST_CASE_METHOD(Survey, "the last stay is resumed within ten minutes of its stop") {

@@ -254,6 +254,25 @@ TEST_CASE_METHOD(Rig, "a data root accepts one daemon at a time") {
     CHECK_NOTHROW(Store(files, options(), clock, reads));
 }
 
+TEST_CASE_METHOD(Rig, "a data root that is moved or deleted while it is used is a fault at once") {
+    Store store(files, options(), clock, reads);
+    const auto is_moved = [&] {
+        status::Status status;
+        store.fill(status);
+        return std::ranges::any_of(status.reasons, [](const text::Message& reason) {
+            return reason.english().starts_with("storage.root was moved or deleted");
+        });
+    };
+    CHECK_FALSE(is_moved());
+    std::filesystem::rename(root, root.string() + "-1");
+    CHECK(is_moved());
+    std::filesystem::create_directory(root);  // another folder of this name
+    CHECK(is_moved());
+    std::filesystem::remove(root);
+    std::filesystem::rename(root.string() + "-1", root);
+    CHECK_FALSE(is_moved());
+}
+
 TEST_CASE_METHOD(Rig, "a link in place of a folder of the data root is refused at the start") {
     const auto elsewhere = directory.path() / "elsewhere";
     std::filesystem::create_directory(elsewhere);

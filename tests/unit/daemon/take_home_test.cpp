@@ -29,6 +29,13 @@ Download day() {
     return {"day.tar", [bundle] { return bundle->open(); }, [bundle] { return bundle->next(); }};
 }
 
+/// Returns the begin of a tar file with this folder.
+std::string copy_of(const std::string& folder) {
+    std::string header(512, '\0');
+    header.replace(0, folder.size() + 5, folder + "/file");
+    return header.replace(257, 5, "ustar");
+}
+
 /// A folder with an older copy, and a server.
 struct Stick {
     Stick() { served.bundle = day; }
@@ -48,11 +55,11 @@ struct Stick {
     }
     [[nodiscard]] bool has_only_the_older_copy() const {
         const auto entries = std::distance(std::filesystem::directory_iterator(folder.path()), {});
-        return entries == 1 && text::read_text_file(out) == "older";
+        return entries == 1 && text::read_text_file(out) == copy_of("day");
     }
 
     test::TemporaryDirectory folder;
-    std::filesystem::path out = folder.write("home.tar", "older");
+    std::filesystem::path out = folder.write("home.tar", copy_of("day"));
     Served served;
 };
 
@@ -84,6 +91,14 @@ TEST_CASE("the day replaces an older copy, or gets its own name in a folder") {
     CHECK(text::read_text_file(stick.folder.path() / "day.tar") == text::read_text_file(stick.out));
     CHECK_THROWS_WITH(stick.take(files::posix_files(), "/dev/null"),
                       "/dev/null is not a file; nothing was saved");
+    for (const std::string& other :
+         {std::string("a thesis"), copy_of("XX_A351_20260301T123456Z")}) {
+        Stick another;
+        const auto file = another.folder.write("other.tar", other);
+        CHECK_THROWS_WITH(another.take(files::posix_files(), file),
+                          ContainsSubstring("exists and is not a copy of this day"));
+        CHECK(text::read_text_file(file) == other);
+    }
 }
 
 TEST_CASE(
