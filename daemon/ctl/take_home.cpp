@@ -13,12 +13,14 @@
 #include <fstream>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <system_error>
 
 #include "daemon/bundle/bundle_check.hpp"
 #include "daemon/ctl/requests.hpp"
+#include "protocol/core/utc_time.hpp"
 #include "protocol/text/message.hpp"
 #include "protocol/text/progress_bar.hpp"
 #include "protocol/text/removed_at_end.hpp"
@@ -63,17 +65,26 @@ std::string disk_trouble(const std::system_error& error, const std::filesystem::
     return text::tr("the copy could not be written: {}; nothing was saved", error.what());
 }
 
-/// Returns true if a file is an earlier copy of the day of a bundle: its folder has the same name up to
-/// the time.
-bool is_of_the_day(const std::filesystem::path& file, const std::filesystem::path& bundle) {
+/// Returns the time in the name NETWORK_STATION_20260314T080000Z of a day.
+std::optional<UtcTime> time_of(std::string name) {
+    name.erase(0, name.rfind('_') + 1);
+    for (const std::size_t place : {4U, 7U, 13U, 16U})
+        if (place < name.size()) name.insert(place, 1, place < 10 ? '-' : ':');
+    return parse_rfc3339(name);
+}
+
+/// Returns true if a file is an earlier copy of the day in a bundle, made at most 12 h before it.
+bool is_of_the_day(const std::filesystem::path& file, const std::string& day) {
     // ustar (POSIX.1-1988): the name is in the first 100 bytes of a header, "ustar" at 257.
     std::array<char, 512> header{};
     std::ifstream(file, std::ios::binary).read(header.data(), header.size());
     if (std::string_view(header.data() + 257, 5) != "ustar") return false;
     header[100] = '\0';
-    const auto day_of = [](const std::string& name) { return name.substr(0, name.rfind('T')); };
-    const std::string folder = std::filesystem::path(header.data()).begin()->string();
-    return day_of(folder) == day_of(bundle.stem());
+    const std::string earlier = std::filesystem::path(header.data()).begin()->string();
+    const auto then = time_of(earlier), now = time_of(day);
+    const bool is_near = then && now && std::chrono::abs(*now - *then) <= std::chrono::hours(12);
+    return earlier == day ||
+           (is_near && earlier.substr(0, earlier.rfind('_')) == day.substr(0, day.rfind('_')));
 }
 
 /// The copy under a temporary name.
@@ -90,7 +101,8 @@ public:
         if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there))
             throw std::runtime_error(
                 text::tr("{} is not a file; nothing was saved", out_.string()));
-        if (std::filesystem::exists(there) && !is_of_the_day(out_, name))
+        if (std::filesystem::exists(there) &&
+            !is_of_the_day(out_, std::filesystem::path(name).stem()))
             throw std::runtime_error(
                 text::tr("{} exists and is not a copy of this day; nothing was saved; name another "
                          "file, or a "

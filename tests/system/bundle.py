@@ -110,12 +110,13 @@ with Scratch() as scratch:
 
     target = scratch / "disk"
     target.mkdir()
-    (target / "day.tar").write_text("before")
+    before = (scratch / "day.tar").read_bytes()[:512]  # The first header names the day.
+    (target / "day.tar").write_bytes(before)
     result = interrupted(session, target)
     demand(f"Ctrl-C: exit status {result.returncode}, one line: {result.stderr.strip()}",
            result.returncode == 1 and result.stderr.count("\n") == 1 and "interrupted" in result.stderr)
     demand("nothing of the copy is left, and the file that was there is as before",
-           [path.name for path in target.iterdir()] == ["day.tar"] and (target / "day.tar").read_text() == "before")
+           [path.name for path in target.iterdir()] == ["day.tar"] and (target / "day.tar").read_bytes() == before)
     demand("the daemon still runs and answers", session.daemon.poll() is None and session.status() != {})
     session.daemon.kill()
     session.daemon.wait()

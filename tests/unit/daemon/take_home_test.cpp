@@ -91,9 +91,18 @@ TEST_CASE("the day replaces an older copy, or gets its own name in a folder") {
     CHECK(text::read_text_file(stick.folder.path() / "day.tar") == text::read_text_file(stick.out));
     CHECK_THROWS_WITH(stick.take(files::posix_files(), "/dev/null"),
                       "/dev/null is not a file; nothing was saved");
-    for (const std::string& other :
-         {std::string("a thesis"), copy_of("XX_A351_20260301T123456Z")}) {
+    const std::string now = "XX_A351_20260302T003456Z";
+    stick.served.bundle = [now] {
+        Download download = day();
+        download.name = now + ".tar";
+        return download;
+    };
+    for (const std::string& same : {copy_of(now), copy_of("XX_A351_20260301T123456Z")})
+        static_cast<void>(stick.take(files::posix_files(), stick.folder.write("same.tar", same)));
+    for (const std::string& other : {std::string("a thesis"), copy_of("XX_A351_20260301T123455Z"),
+                                     copy_of("XX_B_20260301T233456Z")}) {
         Stick another;
+        another.served.bundle = stick.served.bundle;
         const auto file = another.folder.write("other.tar", other);
         CHECK_THROWS_WITH(another.take(files::posix_files(), file),
                           ContainsSubstring("exists and is not a copy of this day"));
