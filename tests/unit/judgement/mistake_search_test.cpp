@@ -11,6 +11,7 @@ using namespace a351::corrector;
 using judgement::Mistake;
 using MistakeKind = adjustment::AlternativeKind;
 using judgement::SearchedReading;
+using judgement::Trial;
 
 namespace {
 
