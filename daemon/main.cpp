@@ -195,8 +195,8 @@ ExitStatus run(const config::Config& config, const source::HostClock& clock, spd
     const std::filesystem::path events = config.storage.root / "events";
     const events::EventLog read = events::read_events(events);
     for (const events::EventDamage& damage : read.damage)
-        log.error("{}:{}: not an event, left out; look at it, it may be a stay",
-                  damage.file.string(), damage.line);
+        log.warn("{}:{}: not an event, left out: a line that was torn by a power cut, or an edit",
+                 damage.file.string(), damage.line);
     const std::vector<events::Event>& logged = read.events;
     exchange = live::last_exchange(logged);
     survey::Occupations occupations(store, config.survey.sites, logged,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "corrector/judgement/reading_name.hpp"
 #include "corrector/model/amended_survey.hpp"
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/strict_toml.hpp"
@@ -35,6 +36,9 @@ public:
         if (mistake.kind == adjustment::AlternativeKind::step) return {step(mistake)};
         if (mistake.kind == adjustment::AlternativeKind::swap) return swapped_names(mistake);
         if (mistake.kind == adjustment::AlternativeKind::set_up) return {bad_set_up(mistake)};
+        if (mistake.kind == adjustment::AlternativeKind::station)
+            if (const std::string rival = rival_of(first(mistake).site); !rival.empty())
+                return {contradiction(mistake, rival)};
         // At an end of the day a step is as likely as a name.
         const bool is_name_likely =
             is_one_stay(mistake) &&
@@ -85,13 +89,6 @@ private:
     static std::string in_mgal(double size_mgal, double u_mgal) {
         constexpr double kFine_mgal = 0.05;  // below it one decimal is 0.0
         return text::fixed(size_mgal, u_mgal < kFine_mgal ? 4 : 1);
-    }
-
-    /// Returns "No.5 (2)", with the gravimeter if there is one.
-    static std::string name_of(const SurveyRow& row) {
-        return row.instrument.empty()
-                   ? fmt::format("{} ({})", row.site, row.occupation)
-                   : fmt::format("{} ({}, {})", row.site, row.occupation, row.instrument);
     }
 
     /// Returns an amendment of the stay of a row; empty if there can be none.
@@ -151,8 +148,8 @@ private:
         if (!after) return;
         finding.code += "_or_step";
         finding.text += text::message("; or the instrument stepped between {} and {}",
-                                      name_of(rows_[model::reading_before(rows_, *after)]),
-                                      name_of(rows_[*after]));
+                                      stay_name(rows_[model::reading_before(rows_, *after)]),
+                                      stay_name(rows_[*after]));
     }
 
     /// Returns the first reading after a step that would look like this mistake, if there is one.
@@ -184,7 +181,7 @@ private:
         set_size(finding, mistake);
         finding.text = text::message(
             "between {} and {} the instrument stepped: from then on the readings are {}",
-            name_of(rows_[model::reading_before(rows_, after)]), name_of(rows_[after]),
+            stay_name(rows_[model::reading_before(rows_, after)]), stay_name(rows_[after]),
             off_by(mistake.size_mgal, mistake.u_mgal));
         if (!rows_[after].listed.site.empty())
             finding.amendment = fmt::format(
@@ -212,7 +209,7 @@ private:
         finding.u_mgal.reset();
         finding.other_site = other.site;
         finding.text = text::message("{} reads like {}, and {} like {}: the names were swapped",
-                                     name_of(row), other.site, name_of(other), row.site);
+                                     stay_name(row), other.site, stay_name(other), row.site);
         finding.amendment = rename(row, other.site, "names swapped");
         return finding;
     }
@@ -230,7 +227,7 @@ private:
             names += fmt::format("{} ({} mGal)", others[i].site->name,
                                  in_mgal(others[i].distance_mgal, mistake.u_mgal));
         }
-        finding.text = text::message("{} is {}; it reads like {}", name_of(row),
+        finding.text = text::message("{} is {}; it reads like {}", stay_name(row),
                                      off_by(mistake.size_mgal, mistake.u_mgal), names);
         if (mistake.kind == adjustment::AlternativeKind::station) {
             finding.code = "other_name_or_reference";
@@ -252,19 +249,22 @@ private:
         return rival;
     }
 
+    [[nodiscard]] Finding contradiction(const Mistake& mistake, const std::string& rival) const {
+        const SurveyRow& row = first(mistake);
+        Finding finding = finding_of(mistake, FindingKind::reference, "references_contradict", row);
+        finding.other_site = rival;
+        finding.text = text::message(
+            "the references of {} and {} contradict each other by {} +- {} mGal, or a stay there "
+            "is "
+            "bad; nothing shows which",
+            row.site, rival, in_mgal(std::abs(mistake.size_mgal), mistake.u_mgal),
+            in_mgal(mistake.u_mgal, mistake.u_mgal));
+        return finding;
+    }
+
     [[nodiscard]] Finding reference(const Mistake& mistake) const {
         const SurveyRow& row = first(mistake);
         Finding finding = finding_of(mistake, FindingKind::reference, "reference", row);
-        if (finding.other_site = rival_of(row.site); !finding.other_site.empty()) {
-            finding.code = "references_contradict";
-            finding.text = text::message(
-                "the references of {} and {} contradict each other by {} +- {} mGal, or a stay "
-                "there "
-                "is bad; nothing shows which",
-                row.site, finding.other_site, in_mgal(std::abs(mistake.size_mgal), mistake.u_mgal),
-                in_mgal(mistake.u_mgal, mistake.u_mgal));
-            return finding;
-        }
         finding.size_mgal = -mistake.size_mgal;
         finding.text = text::message("the reference of {} is {}", row.site,
                                      off_by(-mistake.size_mgal, mistake.u_mgal));
@@ -283,7 +283,7 @@ private:
         const SurveyRow& row = first(mistake);
         Finding finding = finding_of(mistake, FindingKind::bad_reading, "stay_disagrees", row);
         finding.text =
-            text::message("{} is {}, unlike the other readings of {}: repeat it", name_of(row),
+            text::message("{} is {}, unlike the other readings of {}: repeat it", stay_name(row),
                           off_by(mistake.size_mgal, mistake.u_mgal), row.site);
         finding.amendment = exclusion(row, false, mistake);
         return finding;
@@ -302,7 +302,7 @@ private:
                 : 1 + std::count_if(rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(i),
                                     is_same_stay);
         finding.text = text::message("set-up {} of {} is {}, unlike the others: repeat it", number,
-                                     name_of(row), off_by(mistake.size_mgal, mistake.u_mgal));
+                                     stay_name(row), off_by(mistake.size_mgal, mistake.u_mgal));
         finding.amendment = exclusion(row, true, mistake);
         return finding;
     }

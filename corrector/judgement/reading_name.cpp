@@ -22,4 +22,10 @@ std::string reading_name(const std::vector<model::CorrectedRow>& rows, std::size
     return fmt::format("{} ({}{})", row.site, row.occupation, set_up);
 }
 
+std::string stay_name(const reading::SurveyRow& row) {
+    return row.instrument.empty()
+               ? fmt::format("{} ({})", row.site, row.occupation)
+               : fmt::format("{} ({}, {})", row.site, row.occupation, row.instrument);
+}
+
 }  // namespace a351::corrector::judgement

@@ -19,4 +19,7 @@ namespace a351::corrector::judgement {
 [[nodiscard]] std::string reading_name(const std::vector<model::CorrectedRow>& rows,
                                        std::size_t index);
 
+/// Returns the name of the stay of a row, as "No.5 (2)", with the gravimeter if there is one.
+[[nodiscard]] std::string stay_name(const reading::SurveyRow& row);
+
 }  // namespace a351::corrector::judgement

@@ -1,10 +1,9 @@
 #include "corrector/judgement/still_box.hpp"
 
-#include <fmt/core.h>
-
 #include <cmath>
 #include <numbers>
 
+#include "corrector/judgement/reading_name.hpp"
 #include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector::judgement {
@@ -12,7 +11,7 @@ namespace {
 
 using reading::SurveyRow;
 
-constexpr double kLevel_deg = 0.005;
+constexpr double kLevel_deg = 0.001;
 constexpr MilliGal kNorm(10.0);
 constexpr std::size_t kFewestStill = 4;
 
@@ -23,10 +22,6 @@ bool has_moved(const SurveyRow& one, const SurveyRow& other) {
     const double norm_mgal = (other.measured() - one.measured()).value();
     return !(std::hypot(x, y) * 180.0 / std::numbers::pi <= kLevel_deg &&
              std::abs(norm_mgal) <= kNorm.value());
-}
-
-std::string name_of(const SurveyRow& row) {
-    return fmt::format("{} ({})", row.site, row.occupation);
 }
 
 }  // namespace
@@ -45,7 +40,7 @@ std::optional<reading::Finding> still_box(const std::vector<SurveyRow>& rows) {
             finding.text = text::message(
                 "the box did not move from {} to {}, {} stays one after the other at different "
                 "benchmarks: check date, hour and zone of the stays",
-                name_of(rows[first]), name_of(rows[i - 1]), stays);
+                stay_name(rows[first]), stay_name(rows[i - 1]), stays);
             return finding;
         }
         first = i;

@@ -13,9 +13,10 @@ namespace a351::corrector::judgement {
 /// Returns a finding if the box did not move between four or more stays one after the other, each at
 /// another benchmark than the one before: then the times of the stays are wrong.
 ///
-/// It has not moved if its level changes by at most 0.005 deg and the norm by at most 10 mGal, the limits
-/// of a handled box in signal/moved_box.hpp.  Reason for four stays: set-ups that are levelled within
-/// 0.1 deg agree so well once in a thousand times.
+/// It has not moved if its level changes by at most 0.001 deg and the norm by at most 10 mGal.
+/// Reason for 0.001 deg: hands at a box that stands still tilt it by no more (signal/moved_box.hpp).
+/// Reason for four stays: set-ups levelled within 0.005 deg agree so well once in a hundred times,
+/// three times in a row once in a million.
 /// @param rows  in order of time; those of a table of averages are never found.
 [[nodiscard]] std::optional<reading::Finding> still_box(
     const std::vector<reading::SurveyRow>& rows);

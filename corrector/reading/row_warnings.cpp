@@ -55,10 +55,15 @@ std::vector<text::Message> temperature_warnings(const std::vector<SurveyRow>& ro
 
 std::vector<text::Message> order_warnings(const std::vector<SurveyRow>& rows) {
     constexpr std::chrono::hours kNear(8);
+    constexpr std::chrono::days kOne(1);  // A difference of days holds any two times.
+    const auto day = [](const SurveyRow& row) -> std::chrono::sys_days {
+        return std::chrono::floor<std::chrono::days>(row.time);
+    };
     for (auto row = rows.begin(); row != rows.end(); ++row)
-        for (auto before = rows.begin(); before != row; ++before)
-            if (before->site == row->site && before->instrument == row->instrument &&
-                before->occupation > row->occupation && row->time - before->time < kNear)
+        for (auto before = row; before-- != rows.begin() && day(*row) - day(*before) <= kOne;)
+            if (before->loop == row->loop && before->site == row->site &&
+                before->instrument == row->instrument && before->occupation > row->occupation &&
+                row->time - before->time < kNear)
                 return {text::message(
                     "{} ({}), {}, is later than {} ({}), {}: check hours and zone of both",
                     row->site, row->occupation, to_rfc3339(row->time), before->site,

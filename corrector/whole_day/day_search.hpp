@@ -51,9 +51,9 @@ struct DaySearch {
 /// The share is searched at 0, 0.1, ... 1, each with its best placement and noise.  Its most likely
 /// value is the least of a parabola through three of them.  At its limits the logarithm of this
 /// likelihood is 1.92 below the largest (chi-square of one degree of freedom), so that 0 and 1 may
-/// be within them.  On simulated boxes they contain the share on 85 to 98 % of the days, least
-/// often a share of 1 (accuracy.md).  The adjustment takes the mean of the share over the
-/// likelihood, because the expected variance of either part is linear in it.
+/// be within them.  On simulated boxes they contain the share on 92 to 100 % of the days
+/// (accuracy.md).  The adjustment takes the mean of the share over the likelihood, because the
+/// expected variance of either part is linear in it.
 /// @param start  for example the points of the surveys alone.
 [[nodiscard]] DaySearch search_together(const DayProblem& problem, DayPoint start);
 

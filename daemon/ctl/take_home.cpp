@@ -21,6 +21,7 @@
 #include "daemon/bundle/bundle_check.hpp"
 #include "daemon/ctl/requests.hpp"
 #include "protocol/core/utc_time.hpp"
+#include "protocol/events/occupations.hpp"
 #include "protocol/text/message.hpp"
 #include "protocol/text/progress_bar.hpp"
 #include "protocol/text/removed_at_end.hpp"
@@ -73,8 +74,9 @@ std::optional<UtcTime> time_of(std::string name) {
     return parse_rfc3339(name);
 }
 
-/// Returns true if a file is an earlier copy of the day in a bundle, made at most 12 h before it.
-bool is_of_the_day(const std::filesystem::path& file, const std::string& day) {
+/// Returns true if a file is a copy that was made less than a survey's night before the bundle of
+/// this name: then it has no other day.
+bool is_earlier_copy(const std::filesystem::path& file, const std::string& day) {
     // ustar (POSIX.1-1988): the name is in the first 100 bytes of a header, "ustar" at 257.
     std::array<char, 512> header{};
     std::ifstream(file, std::ios::binary).read(header.data(), header.size());
@@ -82,7 +84,7 @@ bool is_of_the_day(const std::filesystem::path& file, const std::string& day) {
     header[100] = '\0';
     const std::string earlier = std::filesystem::path(header.data()).begin()->string();
     const auto then = time_of(earlier), now = time_of(day);
-    const bool is_near = then && now && std::chrono::abs(*now - *then) <= std::chrono::hours(12);
+    const bool is_near = then && now && *then <= *now && *now - *then < events::kSurveyNight;
     return earlier == day ||
            (is_near && earlier.substr(0, earlier.rfind('_')) == day.substr(0, day.rfind('_')));
 }
@@ -102,11 +104,10 @@ public:
             throw std::runtime_error(
                 text::tr("{} is not a file; nothing was saved", out_.string()));
         if (std::filesystem::exists(there) &&
-            !is_of_the_day(out_, std::filesystem::path(name).stem()))
+            !is_earlier_copy(out_, std::filesystem::path(name).stem()))
             throw std::runtime_error(
-                text::tr("{} exists and is not a copy of this day; nothing was saved; name another "
-                         "file, or a "
-                         "folder",
+                text::tr("{} exists and is no copy of the last hours; nothing was saved; name "
+                         "another file, or a folder",
                          out_.string()));
         const auto free = files_.free_bytes(folder_);
         if (free && *free < size)

@@ -46,8 +46,11 @@ DataRootLock::~DataRootLock() {
 bool DataRootLock::is_in_place() const noexcept {
     struct stat locked {
     }, named{};
-    return ::fstat(descriptors_.front(), &locked) == 0 && ::stat(root_.c_str(), &named) == 0 &&
-           locked.st_dev == named.st_dev && locked.st_ino == named.st_ino;
+    if (::fstat(descriptors_.front(), &locked) != 0)
+        return true;  // A fault of the disk is reported
+    if (::stat(root_.c_str(), &named) != 0)
+        return errno != ENOENT && errno != ENOTDIR;  // elsewhere.
+    return locked.st_dev == named.st_dev && locked.st_ino == named.st_ino;
 }
 
 int DataRootLock::open(const std::filesystem::path& root, int folder,

@@ -28,7 +28,7 @@ public:
     DataRootLock(const DataRootLock&) = delete;
     DataRootLock& operator=(const DataRootLock&) = delete;
 
-    /// Returns true if the path still leads to the locked folder.
+    /// Returns false if the path leads to another folder than the locked one, or to none.
     [[nodiscard]] bool is_in_place() const noexcept;
 
 private:

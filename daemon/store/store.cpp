@@ -125,10 +125,8 @@ void Store::fill(status::Status& status) {
 
     report(journal, archive, keeper.trouble, reserve.is_space_short, status);
     if (!lock_.is_in_place())
-        status.fail(
-            text::message("storage.root was moved or deleted while data are recorded into it: put "
-                          "it back at once, "
-                          "or stop a351d first"));
+        status.fail(text::message(
+            "storage.root leads to another folder or to none: put it back, or stop a351d"));
 }
 
 }  // namespace a351::daemon::store

@@ -58,6 +58,8 @@ public:
         return archive_.signal_since(session, index);
     }
     void commit(const events::Event& event) override {
+        if (!lock_.is_in_place())
+            throw std::system_error(ENOENT, std::generic_category(), options_.root.string());
         journal_.commit(event, options_.commit_patience);
     }
 

@@ -1,7 +1,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <utility>
 
 #include "daemon/survey/event_texts.hpp"
 #include "daemon/survey/occupations.hpp"
@@ -140,11 +139,10 @@ Outcome Occupations::retime(const Named& stay, std::optional<UtcTime> from,
     if (start >= end)
         return refused(
             text::message("the start {} is not before the end {}", shown(start), shown(end)));
-    for (const auto& [time, before] : {std::pair(start, one->start), std::pair(end, one->end)})
-        if (std::chrono::abs(time - before) > kFarthestRetime)
-            return refused(
-                text::message("{} is more than a day from {}, the time before: check its date",
-                              shown(time), shown(before)));
+    const bool is_early = start < one->start - kFarthestRetime;
+    if (is_early || end > one->end + kFarthestRetime)
+        return refused(text::message("{} is more than a day outside the stay: check its date",
+                                     shown(is_early ? start : end)));
     trouble = trouble_with_overlap(stay.key, start, is_running ? UtcTime::max() : end);
     if (!trouble.empty())
         return refused(text::message("{} cannot have these times: {}", one->text, trouble));

@@ -47,7 +47,8 @@ struct Named {
 /// moved.
 inline constexpr Nanoseconds kLongestResume = std::chrono::minutes(10);
 
-/// Farthest that a time of a stay is moved.  Reason: farther away is another day, by a mistyped date.
+/// Farthest that a stay is extended at either end.  Reason: farther away is another day, by a
+/// mistyped date.
 inline constexpr Nanoseconds kFarthestRetime = std::chrono::hours(24);
 
 /// Length of each set-up of a stay with a plan of its own.  Reason: two whole minutes between the

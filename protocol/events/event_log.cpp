@@ -120,8 +120,6 @@ std::optional<Event> parse_event(std::string_view text) {
 
 void append_event(files::FileLayer& files, const fs::path& directory, const Event& event) {
     const auto path = directory / (to_rfc3339(event.utc).substr(0, 7) + ".jsonl");
-    if (const fs::path root = directory.parent_path(); !root.empty() && !fs::exists(root))
-        throw std::system_error(ENOENT, std::generic_category(), root.string());
     if (!fs::exists(path)) files.create_directories(directory);
     // The new line must not be joined to one torn by a crash.
     std::string line = ends_without_newline(path) ? "\n" : "";

@@ -61,8 +61,8 @@ struct Event {
 
 /// Appends one line to the file of the event's month and syncs it.
 ///
-/// The month is that of Event::utc, not that of the entry.  A missing directory or file is created, but
-/// not a missing data root; the directory is synced too, each time.  If a crash has torn the last line, the event begins
+/// The month is that of Event::utc, not that of the entry.  A missing directory or file is created;
+/// the directory is synced too, each time.  If a crash has torn the last line, the event begins
 /// on a line of its own (event_log_test.cpp tears it at every byte).
 /// @param files      posix_files(), or a layer that fails on purpose in a test.
 /// @param directory  folder `events` of the data root.

@@ -79,7 +79,6 @@ Message doubtful_site(const std::vector<Site>& sites, const Site* station) {
     std::vector<const Site*> placed;
     for (const Site& site : sites)
         if (site.is_placed) placed.push_back(&site);
-    if (station != nullptr && !placed.empty()) placed.push_back(station);
     const auto from = [](const Site& site, const Site& other) {
         return distance(site, other.latitude, other.longitude).value();
     };
@@ -99,6 +98,11 @@ Message doubtful_site(const std::vector<Site>& sites, const Site* station) {
         return message(
             "{} is {:.0f} km from {}, the nearest other site: check longitude and latitude of both",
             far.site->name, far.size / 1000.0, nearest(*far.site).site->name);
+
+    if (station != nullptr && !placed.empty())
+        if (const Doubt other = nearest(*station); other.size > kNear_m)
+            return message("{} is {:.0f} km from {}, the nearest site: check both positions",
+                           station->name, other.size / 1000.0, other.site->name);
 
     const Doubt high = worst(placed, kMostAltitude_m, [&](const Site& site) {
         std::vector<double> near_m;

@@ -33,7 +33,8 @@ namespace a351::text {
 /// (igp_network_test.cpp).  300 mGal are the attraction of 2.7 km of rock (bouguer_plate()): only the
 /// relief of a high summit makes such a free-air anomaly, and a wrong unit or sign exceeds it.
 /// Sites without a position are not compared, and those without an altitude not in 2 and 3.
-/// @param station  the recorder's own position, which is compared like a site; null: none.
+/// @param station  the recorder's own position, named after 1 if it is farther from all sites; null:
+///                 none.
 [[nodiscard]] Message doubtful_site(const std::vector<Site>& sites, const Site* station = nullptr);
 
 }  // namespace a351::text

@@ -4,7 +4,7 @@ Each seed draws a day of tsukuba's weather for every plan.  Nothing is fitted to
 knows the plan and a usual unit only.
 
 Errors are those of gravity_mgal in stations.csv at the stations without a reference, u is u_gravity_mgal there.  Promised: the
-expected uncertainty is within 15 % of the rms error.
+expected uncertainty is within 15 % of the rms error, and the model is `day`.
 """
 
 import concurrent.futures

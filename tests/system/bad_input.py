@@ -5,7 +5,7 @@ The unit tests of the readers have every mistake; here is one of each file, and 
 
 import shutil
 
-from programs import BIN, TOP, Scratch, daemon_config, demand, refused
+from programs import BIN, TOP, Scratch, daemon_config, demand, refused, run
 
 GOLDEN = TOP / "tests" / "golden" / "tsukuba"
 CONFIG = daemon_config(8351) + '[survey]\nsites = "sites.csv"\n'
@@ -55,6 +55,12 @@ for what, text, parts in (("key", SCENARIO + "[oven]\nlid = true\n", ["day.toml:
     for command in ("plan", "survey"):
         refuse(f"a {what} of a scenario for {command}", parts, "a351-sim", command, "--scenario", "day.toml", "--out",
                "root", day=text)
+with Scratch() as scratch:
+    (scratch / "sites.csv").write_text(SITES)
+    (scratch / "a351d.toml").write_text(CONFIG.replace("latitude = 36.2", "latitude = 8.5"))
+    doubt = run(BIN / "a351d", "--config", "a351d.toml", "--check-config", cwd=scratch)
+    demand(f"a doubtful position of the station is named: {doubt.stderr.strip()}",
+           doubt.stdout == "ok\n" and "sites.csv: [station] is " in doubt.stderr and doubt.stderr.count("\n") == 1)
 for link, parts in (("absent/sensor", ["absent/sensor", "allowed"]), ("taken", ["no link"]),
                     ("foreign", ["/nonexistent"]),
                     ("", ["empty path", "allowed"]), (LONG, ["too long", "allowed"]), ("loop/sensor", ["no directory"]),

@@ -10,7 +10,7 @@ import sys
 from programs import TOP, demand
 
 BENCH = TOP / "tests/bench"
-sys.path.insert(0, str(BENCH))
+LIBRARIES = [folder for folder in sys.path if str(TOP) not in folder]
 MODULES = {"command_line.py", "simulated_units.py"}  # not programs
 PARTS = ("usage: ", "environment: ", "exit status: ", "example: ")
 OTHERS = re.compile(r"No module named '(numpy|scipy|PyEMD|obspy)")  # not packages of the tests
@@ -19,7 +19,9 @@ COMMAND = re.compile(r"python3 (tests/bench/\S+\.py[^`\n]*)")
 
 def help_of(words):
     """Runs a bench with these arguments and --help, which is read after them; returns status and output."""
-    sys.argv = [*words, "--help"]
+    sys.argv, sys.path[:] = [*words, "--help"], [str(BENCH), *LIBRARIES]
+    for name in [name for name, module in sys.modules.items() if str(TOP) in str(getattr(module, "__file__", "")) and name != "__main__"]:
+        del sys.modules[name]  # Each bench finds its modules itself.
     said, failure, status = io.StringIO(), io.StringIO(), "no end at --help"
     with contextlib.redirect_stdout(said), contextlib.redirect_stderr(failure):
         try:

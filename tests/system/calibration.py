@@ -67,7 +67,7 @@ with Scratch() as scratch:
                                         .replace('valid_from_utc = "2017', 'valid_from_utc = "2016'))
     merge = ("calibrate", "--tilt", "tilt-series", "--merge", "ended.toml", "--out")
     # A validity that ended before the tilt series.
-    refused("ended.toml: valid_to_utc", CORRECT, *merge, "merged.toml", cwd=scratch)
+    refused("ended.toml: valid_to_utc", CORRECT, *merge, "no.toml", cwd=scratch)
     correct(*merge, "merged.toml", "--valid-to", "2030-01-01T00:00:00Z", cwd=scratch)
 
     merged = (scratch / "merged.toml").read_text()

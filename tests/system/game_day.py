@@ -5,7 +5,7 @@ import re
 from programs import BIN, IS_LONG, Scratch, demand, read_json, refused, rows, run
 from tired_operator import MISTAKES, play
 
-MOST_WORSE = 1.5
+MOST_WORSE, MOST_WORSE_LATE = 1.5, 1.1
 # Seed, scenario and mistakes of each day.
 SHORT = ((6, "tsukuba", ("no_last_stop", "late_stop", "other_name", "no_stay", "early_stop")),)
 LONG = ((1, "hot-afternoon", ("no_stop", "swapped_names", "early_start", "late_start")), (2, "tilted", ("wrong_reference", "knocks")),
@@ -36,6 +36,14 @@ with Scratch() as scratch:
                f"the proposals carried out, at most {MOST_WORSE}", game["amended"] <= MOST_WORSE)
     demand(f"all mistakes {'of the file' if IS_LONG else 'of the short form'} were played: {sorted(played)}",
            played == ({mistake["what"] for mistake in MISTAKES} if IS_LONG else set(SHORT[0][2])))
+
+    folder = scratch / "late"
+    folder.mkdir()
+    game = play(folder, scenario_of(folder, "hot-afternoon"), 5, names=["stop pressed at the next benchmark"])
+    kinds = [[finding["kind"] for finding in game[findings]] for findings in ("clean", "findings")]
+    demand(f"a stop at the next benchmark alone does not spoil the day: {game['raw']:.3f} times the error, at most {MOST_WORSE_LATE}; "
+           f"findings without and with it {kinds}", game["raw"] <= MOST_WORSE_LATE and game["made"][0]["is_said"]
+           and not game["made"][0]["is_noticed"] and kinds == [["not_visited"], ["moved_box", "not_visited"]])
 
     day = scratch / str(SHORT[0][0]) / "day"
     late, = (finding for finding in read_json(day / "as-it-stands" / "result.json")["findings"] if finding["kind"] == "moved_box")

@@ -67,6 +67,9 @@ with Scratch() as scratch:
         used_s = session.status()["occupation"]["reading"]["used_s"]
         session.daemon.send_signal(how)
         session.daemon.wait()
+        if how == signal.SIGTERM:
+            with open(next((scratch / "data" / "events").glob("*.jsonl")), "a") as events:
+                events.write('{"type": "start\n')
         session.daemon = session.start_daemon()
         begun = time.monotonic()
         wait_for("the same word again", lambda: word(session) == "go", 60)
@@ -74,6 +77,7 @@ with Scratch() as scratch:
         demand(f"after {how.name} the signal is back after {took_s:.1f} s, limit {MOST_S}", took_s < MOST_S)
         wait_for("the reading continues", lambda: session.status()["occupation"]["reading"]["used_s"] > used_s, 20)
 
+    demand("a damaged line of the event log is named", ".jsonl:" in log.read_text() and ": not an event, left out" in log.read_text())
     print(ctl(session, "stop").stdout, end="")
     stay = json.loads(ctl(session, "list", "--json").stdout)["occupations"][0]
     start, end, reading = stay["set_ups"][0]["start"], stay["set_ups"][-1]["end"], stay["reading"]["value_mgal"]

@@ -200,7 +200,8 @@ def is_said(findings, expected):
             return True
         if finding["kind"] in expected["kinds"] and {finding["site"], finding["other_site"]} & expected["sites"]:
             begin, end = expected.get("between", (None, None))
-            return begin is None or begin <= instant(finding["time_utc"]) < end
+            if begin is None or begin <= instant(finding["time_utc"]) < end:
+                return True
     return False
 
 
@@ -243,7 +244,7 @@ def play(folder, scenario_file, seed, count=3, names=None):
         shutil.copytree(folder / "clean", folder / "day")
     clean, day = Day(folder / "clean", seed), Day(folder / "day", seed)
     clean.write()
-    _, clean_errors = corrected(clean, "result")
+    clean_findings, clean_errors = corrected(clean, "result")
     day.step_mgal = step_mgal
     made = []
     for mistake in chosen:
@@ -266,4 +267,5 @@ def play(folder, scenario_file, seed, count=3, names=None):
     for mistake in made:
         mistake["is_said"] = mistake["is_noticed"] or not mistake["kinds"] or is_said(findings + left, mistake)
     is_misfit = any(finding["kind"] == "misfit" for finding in findings + left)
-    return {"made": made, "is_misfit": is_misfit, "raw": ratio(raw_errors), "amended": ratio(errors), "changed": changed, "findings": findings}
+    return {"made": made, "is_misfit": is_misfit, "raw": ratio(raw_errors), "amended": ratio(errors), "changed": changed, "findings": findings,
+            "clean": clean_findings}

@@ -1,6 +1,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include "daemon/ctl/client.hpp"
+#include "daemon/ctl/requests.hpp"
 #include "daemon/ctl/screen.hpp"
 #include "daemon/ctl/survey_text.hpp"
 #include "daemon/ctl/when.hpp"
@@ -36,6 +37,12 @@ TEST_CASE("a stay is one row with its gravity") {
           "No.1  1     a      c    980001.5      1.5     K    -         -\n");
     stay["gravity"] = nullptr;
     CHECK(occupation_table({{"occupations", {stay}}}).find("a      c    -") != std::string::npos);
+}
+
+TEST_CASE("an answer without its members is of another program") {
+    CHECK_THROWS_AS(answer_of({200, "{}"}), NoDaemon);
+    CHECK_THROWS_AS(message_of({nlohmann::json{{"ok", true}}, ""}), NoDaemon);
+    CHECK(message_of({nlohmann::json{{"message", "noted"}}, ""}) == "noted");
 }
 
 TEST_CASE("control characters in names do not reach the terminal") {

@@ -246,7 +246,7 @@ TEST_CASE_METHOD(Survey, "a stay is restored or moved only where no other stay i
     CHECK(mentions(occupations.retime(of(15), minute(24), {}, {}), "is not before the end"));
     CHECK(mentions(occupations.retime(of(15), {}, minute(61), {}), "later than the last sample"));
     CHECK(mentions(occupations.retime(of(15), minute(20) - std::chrono::hours(25), {}, {}),
-                   "is more than a day from"));
+                   "is more than a day outside the stay"));
     CHECK(occupations.retime(of(15), {}, {}, {}).kind == Kind::refused);
     const auto moved = occupations.list().back();
     CHECK(moved.set_ups.front().start == minute(20));

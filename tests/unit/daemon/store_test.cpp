@@ -260,7 +260,7 @@ TEST_CASE_METHOD(Rig, "a data root that is moved or deleted while it is used is 
         status::Status status;
         store.fill(status);
         return std::ranges::any_of(status.reasons, [](const text::Message& reason) {
-            return reason.english().starts_with("storage.root was moved or deleted");
+            return reason.english().starts_with("storage.root leads to another folder");
         });
     };
     CHECK_FALSE(is_moved());
@@ -268,6 +268,8 @@ TEST_CASE_METHOD(Rig, "a data root that is moved or deleted while it is used is 
     CHECK(is_moved());
     std::filesystem::create_directory(root);  // another folder of this name
     CHECK(is_moved());
+    CHECK_THROWS_AS(store.commit({}), std::system_error);
+    CHECK(std::filesystem::is_empty(root));
     std::filesystem::remove(root);
     std::filesystem::rename(root.string() + "-1", root);
     CHECK_FALSE(is_moved());

@@ -97,15 +97,15 @@ TEST_CASE("the day replaces an older copy, or gets its own name in a folder") {
         download.name = now + ".tar";
         return download;
     };
-    for (const std::string& same : {copy_of(now), copy_of("XX_A351_20260301T123456Z")})
+    for (const std::string& same : {copy_of(now), copy_of("XX_A351_20260301T183457Z")})
         static_cast<void>(stick.take(files::posix_files(), stick.folder.write("same.tar", same)));
-    for (const std::string& other : {std::string("a thesis"), copy_of("XX_A351_20260301T123455Z"),
+    for (const std::string& other : {std::string("a thesis"), copy_of("XX_A351_20260301T183456Z"),
                                      copy_of("XX_B_20260301T233456Z")}) {
         Stick another;
         another.served.bundle = stick.served.bundle;
         const auto file = another.folder.write("other.tar", other);
         CHECK_THROWS_WITH(another.take(files::posix_files(), file),
-                          ContainsSubstring("exists and is not a copy of this day"));
+                          ContainsSubstring("exists and is no copy of the last hours"));
         CHECK(text::read_text_file(file) == other);
     }
 }

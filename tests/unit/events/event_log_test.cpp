@@ -113,14 +113,6 @@ TEST_CASE("a line torn at any byte is reported and does not damage the next one"
     }
 }
 
-TEST_CASE("an event makes no new data root") {
-    const test::TemporaryDirectory directory;
-    const auto root = directory.path() / "moved";
-    CHECK_THROWS_AS(append_event(posix_files(), root / "events", start("09:00", "No.1")),
-                    std::system_error);
-    CHECK_FALSE(std::filesystem::exists(root));
-}
-
 TEST_CASE(
     "each event syncs the directory, because an earlier program may have been killed before") {
     struct CountingFiles : test::ForwardingFiles {

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <pugixml.hpp>
 #include <random>
 #include "tests/support/catch.hpp"
