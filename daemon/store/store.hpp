@@ -3,6 +3,7 @@
 /// Everything between the reader's queue and the disk: chunks, recovery at start, journal, archive,
 /// station metadata, events.  It also answers the requests of survey and page about recorded data.
 
+#include <cerrno>
 #include <cstdint>
 
 #include "daemon/source/host_clock.hpp"
@@ -63,7 +64,9 @@ public:
         journal_.commit(event, options_.commit_patience);
     }
 
-    void note(const events::Event& event) override { journal_.note(event); }
+    void note(const events::Event& event) override {
+        if (lock_.is_in_place()) journal_.note(event);
+    }
 
     /// Sets the end of the survey day: another sensor that begins to record before is reported in the
     /// status.
