@@ -5,6 +5,7 @@
 
 #include <cerrno>
 #include <cstdint>
+#include <system_error>
 
 #include "daemon/source/host_clock.hpp"
 #include "daemon/source/read_queue.hpp"

@@ -115,7 +115,7 @@ options = line.parse_args()
 seeds = options.seeds
 with Scratch() as scratch, concurrent.futures.ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
     means, worst = {}, 0.0
-    print(f"{'mean rms error of a day, mGal':36}{''.join(f'{figure:>16}' for figure in FIGURES)} {'in u':>9} {'in 2 u':>9}", flush=True)
+    print(f"{'mean rms error of a day, mGal':42}{''.join(f'{figure:>16}' for figure in FIGURES)} {'in u':>9} {'in 2 u':>9}", flush=True)
     for case in CASES:
         scenario, scatter, setups, most_out, most_in = case
         name = f"{scenario}, units within {100 * scatter:.0f} %, {setups} set-up{'s' if setups > 1 else ''}"
@@ -133,7 +133,7 @@ with Scratch() as scratch, concurrent.futures.ThreadPoolExecutor(len(os.sched_ge
                 error = statistics.stdev(values) / math.sqrt(len(values)) if len(values) > 1 else math.nan
                 means[name, figure] = statistics.fmean(values)
             texts.append(f"{means[name, figure]:.3f} +- {error:.3f}" if values else "-")
-        print(f"{name:36}{''.join(f'{text:>16}' for text in texts)} {coverage([one for _, stations, _ in days for one in stations])[0]}", flush=True)
+        print(f"{name:42}{''.join(f'{text:>16}' for text in texts)} {coverage([one for _, stations, _ in days for one in stations])[0]}", flush=True)
         worst = max(worst, *(day[2] for day in days))
         for figure, most in (("out of sample", most_out), ("in sample", most_in)):
             if most is not None and means[name, figure] > most:
