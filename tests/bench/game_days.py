@@ -43,7 +43,7 @@ with Scratch() as scratch, concurrent.futures.ThreadPoolExecutor(os.cpu_count())
         games.append(one)
         made = "; ".join(f"{mistake['name']}{' (noticed)' if mistake['is_noticed'] else '' if mistake['is_said'] else ' (UNSAID)'}"
                          for mistake in one["made"])
-        print(f"seed {seed}: {SCENARIOS[seed % len(SCENARIOS)]}: {one['raw']:.2f} as it stands, {one['amended']:.2f} amended, "
+        print(f"seed {seed}: {SCENARIOS[seed % len(SCENARIOS)]}: {one['raw']:.2f} as it is, {one['amended']:.2f} amended, "
               f"changed by at most {one['changed']:.1f} u: {made}", flush=True)
         if os.environ.get("A351_SHOW"):
             for finding in one["findings"]:
@@ -52,7 +52,7 @@ ratios = [one["amended"] for one in games]
 unsaid = [one for one in games for mistake in one["made"] if not mistake["is_said"]]
 harmful = [one for one in unsaid if one["changed"] > MOST_CHANGED]
 silent = [one for one in harmful if not one["is_misfit"]]
-print(f"{count} days with {sum(len(one['made']) for one in games)} mistakes: left-out error as it stands "
+print(f"{count} days with {sum(len(one['made']) for one in games)} mistakes: left-out error as it is "
       f"{statistics.median(one['raw'] for one in games):.2f} times that without mistakes (median), with every proposal carried "
       f"out {statistics.median(ratios):.3f} (promised {MOST_MEDIAN}), at most {max(ratios):.3f} (promised {MOST_EVER}); "
       f"{len(unsaid)} mistakes unsaid, {len(harmful)} of them on days that are changed by more than {MOST_CHANGED:.0f} u, "
