@@ -59,15 +59,17 @@ std::vector<text::Message> order_warnings(const std::vector<SurveyRow>& rows) {
     const auto day = [](const SurveyRow& row) -> std::chrono::sys_days {
         return std::chrono::floor<std::chrono::days>(row.time);
     };
-    for (auto row = rows.begin(); row != rows.end(); ++row)
-        for (auto before = row; before-- != rows.begin() && day(*row) - day(*before) <= kOne;)
-            if (before->loop == row->loop && before->site == row->site &&
-                before->instrument == row->instrument && before->occupation > row->occupation &&
-                row->time - before->time < kNear)
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        for (std::size_t k = i; k > 0 && day(rows[i]) - day(rows[k - 1]) <= kOne; --k) {
+            const SurveyRow &row = rows[i], &before = rows[k - 1];
+            if (before.loop == row.loop && before.site == row.site &&
+                before.instrument == row.instrument && before.occupation > row.occupation &&
+                row.time - before.time < kNear)
                 return {text::message(
                     "{} ({}), {}, is later than {} ({}), {}: check hours and zone of both",
-                    row->site, row->occupation, to_rfc3339(row->time), before->site,
-                    before->occupation, to_rfc3339(before->time))};
+                    row.site, row.occupation, to_rfc3339(row.time), before.site, before.occupation,
+                    to_rfc3339(before.time))};
+        }
     return {};
 }
 
