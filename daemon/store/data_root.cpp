@@ -44,12 +44,11 @@ DataRootLock::~DataRootLock() {
 }
 
 bool DataRootLock::is_in_place() const noexcept {
-    struct stat locked {
-    }, named{};
-    if (::fstat(descriptors_.front(), &locked) != 0)
-        return true;  // A fault of the disk is reported
-    if (::stat(root_.c_str(), &named) != 0)
-        return errno != ENOENT && errno != ENOTDIR;  // elsewhere.
+    struct stat locked;
+    struct stat named;
+    // Other faults of the disk are reported elsewhere.
+    if (::fstat(descriptors_.front(), &locked) != 0) return true;
+    if (::stat(root_.c_str(), &named) != 0) return errno != ENOENT && errno != ENOTDIR;
     return locked.st_dev == named.st_dev && locked.st_ino == named.st_ino;
 }
 
