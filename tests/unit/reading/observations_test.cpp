@@ -137,8 +137,8 @@ TEST_CASE("a temperature far from the others and an earlier stay with a later nu
     CHECK(warnings("2345", "42.5", "10").empty());
     CHECK(warnings("1432", "42.5").size() == 1);
     CHECK(warnings("2341", "42.5") ==
-          std::vector<std::string>{"A (1), 2020-03-01T03:00:00Z, is later than A (2), "
-                                   "2020-03-01T00:00:00Z: check hours and zone of both"});
+          std::vector<std::string>{"A (1), 2020-03-01T03:00:00Z, is later than A (4), "
+                                   "2020-03-01T02:00:00Z: check hours and zone of both"});
     CHECK(warnings("4111", "42.5", "10").size() == 1);
     CHECK(warnings("1121", "42.5", "10").empty());  // 8 h after the second stay
 }
