@@ -13,7 +13,6 @@
 #include "corrector/job/survey_file.hpp"
 #include "corrector/judgement/survey_findings.hpp"
 #include "corrector/model/model.hpp"
-#include "corrector/reading/row_warnings.hpp"
 #include "corrector/reduction/plate_and_pressure.hpp"
 #include "corrector/report/report.hpp"
 #include "corrector/result/anomalies.hpp"

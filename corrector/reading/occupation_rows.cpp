@@ -12,7 +12,6 @@
 #include "corrector/reading/moved_stay.hpp"
 #include "corrector/reading/occupation_window.hpp"
 #include "corrector/reading/refused.hpp"
-#include "corrector/reading/row_warnings.hpp"
 #include "corrector/reading/start_up_findings.hpp"
 #include "corrector/reading/stay_remarks.hpp"
 #include "corrector/reading/vertical_axis.hpp"

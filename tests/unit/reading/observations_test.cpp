@@ -1,7 +1,7 @@
 #include <filesystem>
 #include "tests/support/catch.hpp"
 
-#include "corrector/reading/row_warnings.hpp"
+#include "corrector/reading/survey_row.hpp"
 #include "protocol/core/input_error.hpp"
 #include "tests/support/temporary_directory.hpp"
 
