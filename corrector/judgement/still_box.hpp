@@ -14,6 +14,7 @@ namespace a351::corrector::judgement {
 /// another benchmark than the one before: then the times of the stays are wrong.
 ///
 /// It has not moved if its level changes by at most 0.001 deg and the norm by at most 10 mGal.
+/// Reason for 10 mGal: the reading of a still box changes by a few with the temperature of an hour.
 /// Reason for 0.001 deg: hands at a box that stands still tilt it by no more (signal/moved_box.hpp).
 /// Reason for four stays: set-ups levelled within 0.005 deg agree so well once in a hundred times,
 /// three times in a row once in a million.

@@ -177,7 +177,7 @@ void set_backward_rates(std::vector<SurveyRow>& rows);
 /// - each row whose temperature is more than 10 degC from the median, and 20 times as far as half of
 ///   the rows are, as with 0 for an empty cell;
 /// - the first row that comes less than 8 h after a row of its site and loop with a larger number, as
-///   with the hours of a 12-hour clock.  A table may count the stays of each day anew.
+///   with the hours of a 12-hour clock.  After 8 h the numbers may begin anew: it is another day.
 ///
 /// Rows of the first two kinds are not named if more than a quarter of the rows are of one.
 /// @param rows  in order of time.

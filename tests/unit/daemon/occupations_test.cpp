@@ -254,7 +254,8 @@ TEST_CASE_METHOD(Survey, "a stay is restored or moved only where no other stay i
     CHECK(moved.key == of(15).key);
 }
 
-TEST_CASE_METHOD(Survey, "a start before finished stays is told where its stop has to be") {
+TEST_CASE_METHOD(Survey,
+                 "the answer to a start before finished stays says when its stop has to be") {
     occupations.start("No.0", {}, minute(10));
     occupations.stop({}, minute(20));
     CHECK(mentions(
