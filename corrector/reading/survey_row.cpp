@@ -111,8 +111,8 @@ std::vector<text::Message> time_warnings(const std::vector<SurveyRow>& rows) {
 }
 
 std::vector<text::Message> temperature_warnings(const std::vector<SurveyRow>& rows) {
-    // An oven keeps its temperature within 1 degC.  Without an oven half of the rows are some degrees
-    // from the median, so that 20 times as far is beyond any weather.
+    // An oven keeps its temperature within 1 degC.  Without one half of the rows are some degrees from
+    // the median, so that 20 times as far is beyond any weather.
     constexpr double kFar_degc = 10.0, kFar = 20.0;
     if (rows.empty() || !rows.front().has_temperature) return {};
     std::vector<double> values_degc, distances_degc;
