@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "corrector/judgement/closure.hpp"
 #include "corrector/judgement/physical_doubt.hpp"
 #include "corrector/judgement/reading_name.hpp"
+#include "protocol/signal/distributions.hpp"
 #include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector::judgement {
@@ -112,16 +114,35 @@ void add_samples(ReadingGrade& reading, const model::CorrectedRow& row) {
                            text::fixed(by_shaking.value(), 1), text::fixed(u.value(), 1))});
 }
 
+/// Returns true if a mistake is named.  Then the residuals, which are those of the survey as entered,
+/// blame good readings too; the search has judged every reading with the mistakes put right.
+bool has_mistakes(const model::SurveyCorrection& result) {
+    using Of = reading::FindingKind;
+    return std::ranges::any_of(result.findings, [](const reading::Finding& finding) {
+        return finding.kind == Of::other_name || finding.kind == Of::reference ||
+               finding.kind == Of::step || finding.kind == Of::bad_reading;
+    });
+}
+
 /// Scatter of readings of one station after all corrections.
 struct ReadingScatter {
     text::Message name;
     double mgal = 0.0;
+    double of_stated =
+        0.0;  ///< The scatter divided by that stated; 0: readings have none of their own.
+
+    [[nodiscard]] double of(const model::CorrectedRow& row) const {
+        return std::hypot(mgal, of_stated * row.row.u_average.value());
+    }
 };
 
 std::optional<ReadingScatter> scatter_of(const model::SurveyCorrection& result) {
     if (result.as<model::WholeDayPart>() == nullptr) {
         if (!result.score.s_mgal) return std::nullopt;
-        return ReadingScatter{text::message("s"), *result.score.s_mgal};
+        const bool is_network = result.as<model::NetworkPart>() != nullptr;
+        return ReadingScatter{
+            text::message("s"), *result.score.s_mgal,
+            is_network ? *result.score.s_mgal / result.options.priors.reading_sd_mgal : 0.0};
     }
     // The readings are corrected for all other terms of this model.
     for (const model::Coefficient& coefficient : result.coefficients) {
@@ -131,26 +152,45 @@ std::optional<ReadingScatter> scatter_of(const model::SurveyCorrection& result) 
     return std::nullopt;
 }
 
-/// Adds reasons to readings of one station that disagree.  Readings to be repeated are not
-/// compared.
+/// The pair of readings of a station that differs most from what is expected.
+struct WorstPair {
+    std::size_t earlier = 0, later = 0, pair_count = 0;
+    double difference_mgal = 0.0, expected_mgal = 0.0, ratio = 0.0;
+
+    /// Returns true if such a pair is as rare among so many as a single one above kCareRatio.
+    [[nodiscard]] bool is_rare() const {
+        const auto share = [](double of) { return signal::chi_square_exceedance(1.0, of * of); };
+        return static_cast<double>(pair_count) * share(ratio) < share(kCareRatio);
+    }
+};
+
+/// Adds reasons to the two readings of each station that disagree most.  Readings to be repeated are
+/// not compared.
 void add_repeats(std::vector<ReadingGrade>& readings, const model::SurveyCorrection& result) {
     const auto scatter = scatter_of(result);
     if (!scatter || !(scatter->mgal > 0.0)) return;
-    const double expected_mgal = std::sqrt(2.0) * scatter->mgal;
+    std::map<std::string, WorstPair> worst;
     for (const Closure& pair : close_stations(result)) {
         if (readings[pair.earlier].grade == Grade::repeat) continue;
         if (readings[pair.later].grade == Grade::repeat) continue;
-        const double ratio = std::abs(pair.after_all.value()) / expected_mgal;
-        if (ratio <= kCareRatio) continue;
+        const model::CorrectedRow &a = result.rows[pair.earlier], &b = result.rows[pair.later];
+        WorstPair& of = worst[a.row.site];
+        ++of.pair_count;
+        const double difference_mgal = std::abs(pair.after_all.value());
+        const double expected_mgal = std::hypot(scatter->of(a), scatter->of(b));
+        if (const double ratio = difference_mgal / expected_mgal; ratio > of.ratio)
+            of = {pair.earlier, pair.later, of.pair_count, difference_mgal, expected_mgal, ratio};
+    }
+    for (const auto& [site, pair] : worst) {
+        if (!pair.is_rare()) continue;
         const auto reason = [&](std::size_t other) {
             return Reason{
                 "differs",
-                {std::abs(pair.after_all.value()), ratio},
-                text::message("differs by {} mGal from {}, {} times the value expected from {}",
-                              text::fixed(std::abs(pair.after_all.value()),
-                                          text::decimals_for(expected_mgal)),
-                              reading_name(result.rows, other), text::fixed(ratio, 1),
-                              scatter->name)};
+                {pair.difference_mgal, pair.ratio},
+                text::message(
+                    "differs by {} mGal from {}, {} times the value expected from {}",
+                    text::fixed(pair.difference_mgal, text::decimals_for(pair.expected_mgal)),
+                    reading_name(result.rows, other), text::fixed(pair.ratio, 1), scatter->name)};
         };
         add(readings[pair.earlier], Grade::care, reason(pair.later));
         add(readings[pair.later], Grade::care, reason(pair.earlier));
@@ -208,6 +248,7 @@ std::vector<ReadingGrade> grade_readings(const model::SurveyCorrection& result) 
         return row.rate_correction != MilliGal(0.0);
     });
     const bool is_day = result.as<model::WholeDayPart>() != nullptr;
+    const bool is_as_entered = !has_mistakes(result);
     std::vector<ReadingGrade> readings;
     for (const model::CorrectedRow& row : result.rows) {
         ReadingGrade& reading = readings.emplace_back();
@@ -216,11 +257,11 @@ std::vector<ReadingGrade> grade_readings(const model::SurveyCorrection& result) 
             add_temperature(reading, row, corrects_rate);
             add_knock(reading, row.row);
         }
-        add_residual(reading, row, is_day);
+        if (is_as_entered) add_residual(reading, row, is_day);
         add_findings(reading, row.row, result.findings);
         add_samples(reading, row);
     }
-    add_repeats(readings, result);
+    if (is_as_entered) add_repeats(readings, result);
     if (const text::Message doubt = doubt_of_all(result); !doubt.empty())
         for (ReadingGrade& reading : readings)
             add(reading, Grade::care, {kOfWholeSurvey, {}, doubt});

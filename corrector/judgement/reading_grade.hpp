@@ -74,13 +74,14 @@ struct ReadingGrade {
 /// - Not used by the operator or an amendment, or never at rest: `repeat`.
 /// - Temperature that was not steady (temperature_doubt()), not for `day`: `care` if the model has a
 ///   term for its rate, else `repeat`.  A knock that split the record, not for `day`: `care`.
-/// - Residual: `care` above 2 u_corrected, `repeat` above 3.  A row without residual or u is not
-///   tested.  For `day` it is the error of the prediction without the row's station.
+/// - Residual, if no mistake is named: `care` above 2 u_corrected, `repeat` above 3.  A row without
+///   residual or u is not tested.  For `day` it is the error of the prediction without the row's station.
 /// - Mistakes found at the stay: `repeat` for a bad reading, else `care`.
 /// - Samples: `care` if their standard error is above u_corrected, `repeat` if the effect of shaking
 ///   is.
-/// - Two readings of a station: both get `care` if they differ by more than 2 sqrt(2) s (`day`:
-///   placement).  Readings that have `repeat` for another reason are not compared.
+/// - Two readings of a station, if no mistake is named: both get `care` if they differ by more than 2
+///   sqrt(2) s (`day`: placement).  Of more than two the pair that differs most, with a limit that as
+///   few stations exceed by chance.  Readings that have `repeat` for another reason are not compared.
 /// - A day that is not usable, or a network that fails the global test with more than twice the
 ///   scatter stated: all `care`.
 ///

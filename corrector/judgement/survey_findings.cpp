@@ -87,13 +87,11 @@ int rank_of(const Finding& finding) {
 
 /// Returns the rms uncertainty of the references.
 double u_references(const model::SurveyCorrection& result) {
-    double squares = 0.0, count = 0.0;
-    for (const model::CorrectedRow& row : result.rows) {
-        if (!row.is_used || !row.row.reference) continue;
-        squares += std::pow(row.row.u_reference.value_or(MilliGal(0.0)).value(), 2);
-        count += 1.0;
-    }
-    return count > 0.0 ? std::sqrt(squares / count) : 0.0;
+    std::vector<double> u_mgal;
+    for (const model::CorrectedRow& row : result.rows)
+        if (row.is_used && row.row.reference)
+            u_mgal.push_back(row.row.u_reference.value_or(MilliGal(0.0)).value());
+    return model::root_mean_square(u_mgal).value_or(0.0);
 }
 
 /// Says that the day is not usable, if so.
@@ -104,7 +102,7 @@ std::optional<Finding> unusable(const model::SurveyCorrection& result,
     if (!loso) return std::nullopt;
     Finding finding{.kind = FindingKind::unusable_day, .code = "unusable_day", .is_headline = true};
     const bool is_bad_anyhow =
-        left_out_count(result) >= kFewestLeftOut &&
+        new_station_errors_mgal(result).size() >= kFewestLeftOut &&
         amended_loso_mgal.value_or(*loso) > std::hypot(kUnusableAnyhow_mgal, u_references(result));
     if (!amended_loso_mgal && is_bad_anyhow)
         finding.text = text::message(
@@ -243,13 +241,19 @@ std::string model_without_mistakes(const model::AmendedSurvey& right, const Sear
 
 }  // namespace
 
-std::size_t left_out_count(const model::SurveyCorrection& result) {
-    if (const auto* const network = result.as<model::NetworkPart>())
-        return network->held_sites.size();
-    std::set<std::string> sites;
-    for (const model::CorrectedRow& row : result.rows)
-        if (row.is_used && row.row.reference) sites.insert(row.row.site);
-    return sites.size();
+std::vector<double> new_station_errors_mgal(const model::SurveyCorrection& result) {
+    const auto* const network = result.as<model::NetworkPart>();
+    const auto is_held = [&](const std::string& site) {
+        if (network != nullptr) return std::ranges::count(network->held_sites, site) > 0;
+        return std::ranges::any_of(result.rows, [&](const model::CorrectedRow& row) {
+            return row.is_used && row.row.reference && row.row.site == site;
+        });
+    };
+    std::vector<double> errors_mgal;
+    for (const model::StationValue& station : result.stations)
+        if (station.left_out && station.reference && is_held(station.site))
+            errors_mgal.push_back((*station.left_out - *station.reference).value());
+    return errors_mgal;
 }
 
 std::vector<Finding> find_mistakes(const model::SurveyCorrection& result,

@@ -50,7 +50,8 @@ struct SearchedSurvey {
 /// five errors is known to a third, that of two to a half.
 inline constexpr std::size_t kFewestLeftOut = 5;
 
-/// Returns the number of stations on which this error rests: those whose reference the fit uses.
-[[nodiscard]] std::size_t left_out_count(const model::SurveyCorrection& result);
+/// Returns left_out - reference of each station whose reference the fit uses and that can be left out,
+/// mGal: errors as of new stations.
+[[nodiscard]] std::vector<double> new_station_errors_mgal(const model::SurveyCorrection& result);
 
 }  // namespace a351::corrector::judgement

@@ -156,11 +156,10 @@ struct SideBySide {
 
     /// Returns the rms of ours minus theirs, mGal; absent without a station.
     [[nodiscard]] std::optional<double> scatter_mgal() const {
-        if (stations.empty()) return std::nullopt;
-        double squares = 0.0;
+        std::vector<double> differences_mgal;
         for (const ComparedStation& station : stations)
-            squares += station.difference().value() * station.difference().value();
-        return std::sqrt(squares / static_cast<double>(stations.size()));
+            differences_mgal.push_back(station.difference().value());
+        return root_mean_square(differences_mgal);
     }
 };
 

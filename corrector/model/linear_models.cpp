@@ -70,13 +70,6 @@ std::optional<std::vector<double>> station_left_out_mgal(const ModelOf& model_of
     return of_used;
 }
 
-std::optional<double> rms_of(const std::optional<std::vector<double>>& errors) {
-    if (!errors) return std::nullopt;
-    double sum = 0.0;
-    for (const double error : *errors) sum += error * error;
-    return std::sqrt(sum / static_cast<double>(errors->size()));
-}
-
 bool has_term(const LinearModel& model, const adjustment::Term& term) {
     return std::ranges::find(model.terms, &term) != model.terms.end();
 }
@@ -209,7 +202,8 @@ Score score_linear_model(const LinearModel& model, const SurveyProblem& problem,
     const bool has_prior = solution.equations().rows.size() > score.row_count;
     if (n - k - 1.0 > 0.0 && rss > 0.0 && !has_prior)
         score.aicc = n * std::log(rss / n) + 2.0 * k + 2.0 * k * (k + 1.0) / (n - k - 1.0);
-    score.loso_mgal = rms_of(left_out_errors_mgal(model, problem, in_use));
+    if (const auto errors_mgal = left_out_errors_mgal(model, problem, in_use))
+        score.loso_mgal = root_mean_square(*errors_mgal);
     return score;
 }
 
@@ -247,7 +241,8 @@ std::optional<double> choice_loso_mgal(const SurveyProblem& problem,
         const auto choice = choose_model(problem, others);
         return choice ? find_linear_model(choice->model) : nullptr;
     };
-    return rms_of(station_left_out_mgal(chosen, problem, in_use));
+    const auto errors_mgal = station_left_out_mgal(chosen, problem, in_use);
+    return errors_mgal ? root_mean_square(*errors_mgal) : std::nullopt;
 }
 
 std::vector<Model> linear_models() {

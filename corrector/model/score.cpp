@@ -6,6 +6,13 @@
 
 namespace a351::corrector::model {
 
+std::optional<double> root_mean_square(const std::vector<double>& values) {
+    if (values.empty()) return std::nullopt;
+    double squares = 0.0;
+    for (const double value : values) squares += value * value;
+    return std::sqrt(squares / static_cast<double>(values.size()));
+}
+
 std::optional<Interval> bootstrap_rms_interval(const std::vector<double>& errors,
                                                const std::vector<std::string>& stations,
                                                std::uint64_t seed) {

@@ -34,6 +34,9 @@ struct Score {
     std::optional<double> rms_before_drift_mgal;  ///< `paper` only: rms of Error (1).
 };
 
+/// Returns the root of the mean of the squares; std::nullopt without values.
+[[nodiscard]] std::optional<double> root_mean_square(const std::vector<double>& values);
+
 /// Limits of a confidence interval, in the unit of the quantity.
 struct Interval {
     double low = 0.0;   ///< Lower limit.

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <map>
+#include <set>
 
 #include "protocol/core/input_error.hpp"
 #include "protocol/signal/median.hpp"
@@ -136,6 +138,21 @@ std::vector<text::Message> order_warnings(const std::vector<SurveyRow>& rows) {
     const auto day = [](const SurveyRow& row) -> std::chrono::sys_days {
         return std::chrono::floor<std::chrono::days>(row.time);
     };
+    std::vector<text::Message> warnings;
+    std::map<std::string, const SurveyRow*> last;  // of each instrument
+    for (const SurveyRow& row : rows) {
+        const SurveyRow*& before = last[row.instrument];
+        if (before != nullptr && before->table_row > row.table_row &&
+            day(row) - day(*before) <= kOne && row.time - before->time < kOne)
+            warnings.push_back(text::message(
+                "{} ({}), {}, is earlier than {} ({}), {}, but below it in the table: check hours "
+                "and zone of both",
+                before->site, before->occupation, to_rfc3339(before->time), row.site,
+                row.occupation, to_rfc3339(row.time)));
+        before = &row;
+    }
+    warnings = unless_many(std::move(warnings), rows.size());
+    if (!warnings.empty()) return warnings;
     for (std::size_t i = 0; i < rows.size(); ++i)
         for (std::size_t k = i; k > 0 && day(rows[i]) - day(rows[k - 1]) <= kOne; --k) {
             const SurveyRow &row = rows[i], &before = rows[k - 1];
@@ -148,6 +165,20 @@ std::vector<text::Message> order_warnings(const std::vector<SurveyRow>& rows) {
                     to_rfc3339(before.time))};
         }
     return {};
+}
+
+std::vector<text::Message> reference_warnings(const std::vector<SurveyRow>& rows) {
+    constexpr MilliGal kWorst(1.0);
+    std::set<std::string> sites;
+    MilliGal u = kWorst;
+    for (const SurveyRow& row : rows) {
+        if (row.u_reference.value_or(kWorst) > kWorst) sites.insert(row.site);
+        u = std::max(u, row.u_reference.value_or(kWorst));
+    }
+    if (sites.empty()) return {};
+    return {
+        text::message("{}: gravity is known to {} mGal only; or is u_gravity_mgal in microgals?",
+                      text::joined({sites.begin(), sites.end()}), text::shortest(u.value()))};
 }
 
 }  // namespace
@@ -172,6 +203,7 @@ std::vector<SurveyRow> read_observations(const std::filesystem::path& file,
     std::vector<SurveyRow> rows;
     for (std::size_t i = 0; i < table.row_count(); ++i) {
         SurveyRow row;
+        row.table_row = i;
         if (is_of_gravimeter) set_gravimeter(row, table, i);
         row.site = table.cell(i, "site");
         const text::Site* const site = text::find_site(sites, row.site);
@@ -244,7 +276,7 @@ std::vector<text::Message> position_warnings(const std::vector<SurveyRow>& rows,
 
 std::vector<text::Message> row_warnings(const std::vector<SurveyRow>& rows) {
     std::vector<text::Message> warnings = time_warnings(rows);
-    for (auto* const more : {&temperature_warnings, &order_warnings})
+    for (auto* const more : {&temperature_warnings, &order_warnings, &reference_warnings})
         std::ranges::move(more(rows), std::back_inserter(warnings));
     return warnings;
 }

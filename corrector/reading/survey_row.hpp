@@ -65,6 +65,7 @@ struct SurveyRow : SetUp {
     std::string instrument;  ///< Name of the gravimeter; empty for the sensor.
     /// Loop of the gravimeter, as the table gives it: within a loop its constant does not change.
     int loop = 0;
+    std::size_t table_row = 0;  ///< Number in its table, which need not be in order of time.
     /// Mean temperature of the sensor over the interval; 0 if not given.
     DegC temperature;
     /// False in a table of a gravimeter, which corrects its readings for temperature itself.
@@ -176,10 +177,13 @@ void set_backward_rates(std::vector<SurveyRow>& rows);
 /// - each row that is more than 20 days from all others, as with a mistyped year or month;
 /// - each row whose temperature is more than 10 degC from the median, and 20 times as far as half of
 ///   the rows are, as with 0 for an empty cell;
-/// - the first row that comes less than 8 h after a row of its site and loop with a larger number, as
-///   with the hours of a 12-hour clock.  After 8 h the numbers may begin anew: it is another day.
+/// - each row less than a day after one that is below it in the table, as with the hours of a 12-hour
+///   clock; without one, the first row that comes less than 8 h after a row of its site and loop with a
+///   larger number.  After 8 h the numbers may begin anew: it is another day;
+/// - the sites whose reference is known to more than 1 mGal, as with microgals.  Reason: the worst
+///   benchmarks of national nets are known to some tenths.
 ///
-/// Rows of the first two kinds are not named if more than a quarter of the rows are of one.
+/// Rows of the first three kinds are not named if more than a quarter of the rows are of one.
 /// @param rows  in order of time.
 [[nodiscard]] std::vector<text::Message> row_warnings(const std::vector<SurveyRow>& rows);
 

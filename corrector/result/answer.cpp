@@ -71,10 +71,11 @@ bool is_left_out(const model::StationValue& station) {
 
 std::string accuracy(const model::SurveyCorrection& result) {
     const std::string stations = counted_stations(result);
-    const auto loso = result.score.loso_mgal;
-    const std::string error = loso ? text::fixed(*loso, text::decimals_for(loso)) : "";
-    const std::size_t left_out = judgement::left_out_count(result);
-    if (loso && left_out >= judgement::kFewestLeftOut)
+    const std::vector<double> errors_mgal = judgement::new_station_errors_mgal(result);
+    const std::size_t left_out = errors_mgal.size();
+    const double rms_mgal = model::root_mean_square(errors_mgal).value_or(0.0);
+    const std::string error = text::fixed(rms_mgal, text::decimals_for(rms_mgal));
+    if (left_out >= judgement::kFewestLeftOut)
         return tr("{}; a new one is known to +- {} mGal (each known station left out).", stations,
                   error);
     const std::vector<double> u = uncertainties(result, false);
@@ -84,11 +85,12 @@ std::string accuracy(const model::SurveyCorrection& result) {
     const int decimals = decimals_of(result);
     const std::string least = text::fixed(u.front(), decimals),
                       most = text::fixed(u.back(), decimals);
-    return loso ? tr("{}; u is {} to {} mGal. Only {} known stations could be left out to test it: "
-                     "they are off by {} mGal rms.",
-                     stations, least, most, left_out, error)
-                : tr("{}; u is {} to {} mGal, not tested: no known station can be left out.",
-                     stations, least, most);
+    return left_out > 0
+               ? tr("{}; u is {} to {} mGal. Only {} known stations could be left out to test it: "
+                    "they are off by {} mGal rms.",
+                    stations, least, most, left_out, error)
+               : tr("{}; u is {} to {} mGal, not tested: no known station can be left out.",
+                    stations, least, most);
 }
 
 std::string listed(const reading::LeftOut& stay) {
@@ -174,7 +176,11 @@ Table answer_table(const model::SurveyCorrection& result, const std::vector<Read
     const auto u = [&](const Row& station) {
         return is_known ? cell(shown_u(result, station)) : Cell();
     };
-    columns.push_back({"u", u, {text::marked("u mGal"), 2}});
+    columns.push_back(
+        {"u_mgal",
+         u,
+         {judgement::scatters_more_than_stated(result) ? text::marked("u mGal, a posteriori")
+                                                       : text::marked("u mGal")}});
     columns.push_back(difference_column(result));
     columns = with_decimals(columns, decimals_of(result));
     const auto mark = [&](const Row& station) {
@@ -206,6 +212,14 @@ std::vector<std::string> notes(const model::SurveyCorrection& result,
     if (judgement::scatters_more_than_stated(result))
         list.push_back(
             tr("The readings scatter more than stated (global test failed): look for a fault."));
+    constexpr double kMuchLess = 0.1;  // No cautious user states ten times the scatter.
+    if (const auto* const network = result.as<model::NetworkPart>();
+        network != nullptr && network->scatters_less_than_stated() &&
+        network->s0().value_or(1.0) < kMuchLess)
+        list.push_back(
+            tr("The readings scatter {} times less than stated: are sd_mgal and "
+               "reading_sd_mgal in mGal?",
+               text::fixed(1.0 / *network->s0(), 0)));
     std::vector<std::string> unchecked;
     for (const model::StationValue& station : result.stations)
         if (station.row_count == 1 && !station.reference) unchecked.push_back(station.site);

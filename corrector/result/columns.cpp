@@ -174,8 +174,7 @@ std::vector<Column<model::CorrectedRow>> occupation_columns(const model::SurveyC
         columns.push_back(
             {"scale_correction_mgal", of(&Row::scale_correction), {text::marked("Scale corr.")}});
     if (!first.row.instrument.empty())
-        append(columns,
-               {{"instrument", read(&Read::instrument)}, {"loop", read(&Read::loop)}});
+        append(columns, {{"instrument", read(&Read::instrument)}, {"loop", read(&Read::loop)}});
     if (first.row.start)
         columns.push_back({"used_min",
                            [](const Row& row) { return cell(used_minutes(row)); },

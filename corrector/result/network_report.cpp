@@ -3,8 +3,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/csv.hpp"
@@ -23,18 +23,23 @@ struct ReferenceCheck {
 
 ReferenceCheck check_references(const model::SurveyCorrection& result,
                                 const model::NetworkPart& network) {
-    ReferenceCheck check;
-    double squares = 0.0;
+    std::vector<double> differences_mgal;
     for (const model::StationValue& station : result.stations) {
-        if (std::ranges::find(network.held_sites, station.site) != network.held_sites.end() || station.is_flagged_only ||
-            !station.residual)
+        if (std::ranges::find(network.held_sites, station.site) != network.held_sites.end() ||
+            station.is_flagged_only || !station.residual)
             continue;
-        ++check.station_count;
-        squares += station.residual->value() * station.residual->value();
+        differences_mgal.push_back(station.residual->value());
     }
-    if (check.station_count > 0)
-        check.rms_mgal = std::sqrt(squares / static_cast<double>(check.station_count));
-    return check;
+    return {differences_mgal.size(), model::root_mean_square(differences_mgal)};
+}
+
+/// Returns the standard deviations of some rows, as " of sd 0.005 to 0.01 mGal"; empty without a row.
+std::string deviations(const model::NetworkPart& network, std::size_t first, std::size_t count) {
+    if (count == 0) return {};
+    const auto [least, most] = std::ranges::minmax(std::span(network.rows).subspan(first, count),
+                                                   {}, &model::NetworkRow::sd);
+    return least.sd == most.sd ? fmt::format(" of sd {:.3g} mGal", least.sd)
+                               : fmt::format(" of sd {:.3g} to {:.3g} mGal", least.sd, most.sd);
 }
 
 }  // namespace
@@ -43,32 +48,33 @@ std::string network_text(const model::SurveyCorrection& result) {
     const auto* const adjusted = result.as<model::NetworkPart>();
     if (adjusted == nullptr) return {};
     const model::NetworkPart& network = *adjusted;
+    const std::size_t readings = network.reading_count, held = network.held_sites.size();
     std::string text = fmt::format(
-        "network: {} rows ({} readings, {} datum of sd {} mGal), {} unknowns, dof = {}\n",
-        network.rows.size(), network.reading_count, network.held_sites.size(),
-        text::shortest(result.options.network.datum_sd_mgal), network.unknown_count, network.dof);
-    const std::string sd = text::shortest(result.options.priors.reading_sd_mgal);
+        "network: {} rows (readings: {}; datum: {}{}; priors: {}), {} unknowns, dof = {}\n",
+        network.rows.size(), readings, held, deviations(network, readings, held),
+        network.rows.size() - readings - held, network.unknown_count, network.dof);
+    const std::string sd = deviations(network, 0, readings);
+    const bool is_one_sd = sd.find(" to ") == std::string::npos;
     if (const auto passes = network.passes_global_test()) {
-        text += fmt::format(
-            "global test: v'Wv = {}, at most {}: {}; s0 = {} for readings of sd {} mGal\n",
-            text::fixed(network.weighted_square, 2), text::fixed(network.chi_square_high, 2),
-            *passes ? "passed" : "FAILED", text::fixed(*network.s0(), 3), sd);
-        const std::string scatter = fmt::format("{:.2g}", result.score.s_mgal.value());
+        text += fmt::format("global test: v'Wv = {}, at most {}: {}; s0 = {} for readings{}\n",
+                            text::fixed(network.weighted_square, 2),
+                            text::fixed(network.chi_square_high, 2), *passes ? "passed" : "FAILED",
+                            text::fixed(*network.s0(), 3), sd);
+        const std::string scatter =
+            is_one_sd
+                ? fmt::format("agrees with reading_sd_mgal = {:.2g}", result.score.s_mgal.value())
+                : fmt::format("is {:.2g} times what they state", *network.s0());
         if (!*passes)
-            text += fmt::format(
-                "  the scatter of the readings agrees with reading_sd_mgal = {}; first look for a "
-                "fault\n",
-                scatter);
+            text +=
+                fmt::format("  the scatter of the readings {}; first look for a fault\n", scatter);
         if (network.scatters_less_than_stated())
             text += fmt::format(
-                "  the readings scatter less than stated (v'Wv below {}): their scatter agrees with "
-                "reading_sd_mgal = {}\n",
+                "  the readings scatter less than stated (v'Wv below {}): their scatter {}\n",
                 text::fixed(network.chi_square_low, 2), scatter);
+        text += fmt::format(
+            "u of the stations above {}; stations.csv has both\n",
+            *passes ? "is a priori" : "is a posteriori, times s0, because the test failed");
     }
-    text += fmt::format(
-        "u of the stations: a priori (readings of sd {} mGal); times s0, a posteriori: "
-        "stations.csv\n",
-        sd);
     const ReferenceCheck check = check_references(result, network);
     if (check.rms_mgal) {
         text += fmt::format(

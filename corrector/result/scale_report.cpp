@@ -31,14 +31,17 @@ std::vector<std::string> scale_sentences(const model::SurveyCorrection& result) 
         const model::Interval limits = scale.limits();
         const int decimals = text::decimals_for(scale.u);
         const auto shown = [decimals](double value) { return text::fixed(value, decimals); };
+        const auto shown_prior = [&scale](double value) {
+            return text::fixed(value, text::decimals_for(scale.prior.sd));
+        };
         sentences.push_back(
             text::tr("scale of {}: {} +- {} (95 % limits: {} to {}); {} (prior {} +- {}). A "
                      "difference of 100 "
                      "mGal is uncertain by {} mGal because of it",
                      scale.instrument.empty() ? text::tr("the sensor") : scale.instrument,
                      shown(scale.value), shown(scale.u), shown(limits.low), shown(limits.high),
-                     source_of(scale), text::shortest(scale.prior.mean),
-                     text::shortest(scale.prior.sd), text::fixed(100.0 * scale.u, 2)));
+                     source_of(scale), shown_prior(scale.prior.mean), shown_prior(scale.prior.sd),
+                     text::fixed(100.0 * scale.u, text::decimals_for(100.0 * scale.u))));
     }
     return sentences;
 }

@@ -20,15 +20,15 @@ std::vector<std::string> side_by_side_sentences(const model::SurveyCorrection& r
     const std::string names = text::joined(instruments);
     std::vector<std::string> sentences;
     if (const auto scatter = both.scatter_mgal()) {
-        double squares = 0.0;
+        std::vector<double> u_mgal;
         for (const model::ComparedStation& station : both.stations)
-            squares += std::pow(station.u_ours.value(), 2);
+            u_mgal.push_back(station.u_ours.value());
         sentences.push_back(text::tr(
             "side by side with {}: at {} stations the sensor differs by {} mGal rms, each station "
             "with its own reference hidden (cross-validated); its stated uncertainty is {} mGal "
             "rms",
             names, both.stations.size(), text::fixed(*scatter, 2),
-            text::fixed(std::sqrt(squares / static_cast<double>(both.stations.size())), 2)));
+            text::fixed(*model::root_mean_square(u_mgal), 2)));
     }
     if (both.bias)
         sentences.push_back(text::tr("bias of the sensor against {}: {} +- {} mGal", names,

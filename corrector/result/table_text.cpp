@@ -45,6 +45,10 @@ std::string occupations_text(const model::SurveyCorrection& result) {
     return aligned_text(table);
 }
 
+int decimals_of_scores(const model::SurveyCorrection& result) {
+    return std::max(2, decimals_of(result));
+}
+
 std::string coefficients_text(const model::SurveyCorrection& result) {
     std::string text;
     for (const model::Coefficient& c : result.coefficients) {
@@ -63,11 +67,13 @@ std::string coefficients_text(const model::SurveyCorrection& result) {
 
 std::string summary_text(const model::SurveyCorrection& result) {
     const model::Score& score = result.score;
+    const int decimals = decimals_of_scores(result);
     std::string text =
         tr("model {}{}: RMS {} mGal (in sample, n = {})", result.model, choice_text(result),
-           text::fixed_or(score.rms_mgal, 2, "-"), score.row_count);
-    const auto add = [&text](const std::optional<double>& value_mgal, const std::string& kind) {
-        if (value_mgal) text += fmt::format(", {} mGal ({})", text::fixed(*value_mgal, 2), kind);
+           text::fixed_or(score.rms_mgal, decimals, "-"), score.row_count);
+    const auto add = [&](const std::optional<double>& value_mgal, const std::string& kind) {
+        if (value_mgal)
+            text += fmt::format(", {} mGal ({})", text::fixed(*value_mgal, decimals), kind);
     };
     add(score.loo_mgal, tr("leave-one-out"));
     add(score.loso_mgal, tr("leave-one-station-out"));
@@ -199,10 +205,11 @@ Table budget_table(const model::SurveyCorrection& result) {
 }
 
 Table models_table(const model::SurveyCorrection& result) {
-    return table_of(
-        with_keys(score_columns(result), {"model", "rows", "n", "p", "dof", "rms_mgal", "s_mgal",
-                                          "loo_mgal", "loso_mgal", "aicc", "selected"}),
-        score_rows(result));
+    return table_of(with_decimals(with_keys(score_columns(result),
+                                            {"model", "rows", "n", "p", "dof", "rms_mgal", "s_mgal",
+                                             "loo_mgal", "loso_mgal", "aicc", "selected"}),
+                                  decimals_of_scores(result)),
+                    score_rows(result));
 }
 
 std::string survey_text(const model::SurveyCorrection& result, bool is_verbose) {

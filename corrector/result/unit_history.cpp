@@ -9,14 +9,6 @@
 namespace a351::corrector::result {
 namespace {
 
-/// Returns the root of the mean of the squares; std::nullopt without numbers.
-std::optional<double> rms_of(const std::vector<double>& values) {
-    if (values.empty()) return std::nullopt;
-    double squares = 0.0;
-    for (const double value : values) squares += value * value;
-    return std::sqrt(squares / static_cast<double>(values.size()));
-}
-
 TermSummary summary_of(const std::vector<model::Coefficient>& terms) {
     TermSummary summary;
     summary.day_count = terms.size();
@@ -26,7 +18,7 @@ TermSummary summary_of(const std::vector<model::Coefficient>& terms) {
         summary.mean += term.value / count;
         if (term.standard_error) u.push_back(*term.standard_error);
     }
-    summary.rms_u = rms_of(u);
+    summary.rms_u = model::root_mean_square(u);
     if (terms.size() > 1) {
         double squares = 0.0;
         for (const model::Coefficient& term : terms)

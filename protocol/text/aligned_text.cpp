@@ -20,7 +20,7 @@ std::string fixed(double value, int decimals) {
 
 int decimals_for(const std::optional<double>& u_mgal) {
     if (!u_mgal || !(*u_mgal > 0.0)) return 1;
-    return std::clamp(1 - static_cast<int>(std::floor(std::log10(*u_mgal))), 0, 4);
+    return std::clamp(1 - static_cast<int>(std::floor(std::log10(*u_mgal))), 0, 7);
 }
 
 std::string fixed_or(const std::optional<double>& value, int decimals, const std::string& absent) {

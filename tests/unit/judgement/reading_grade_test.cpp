@@ -2,6 +2,8 @@
 
 #include "tests/support/catch.hpp"
 
+#include <algorithm>
+
 #include "corrector/judgement/reading_name.hpp"
 
 using namespace a351;
@@ -215,6 +217,53 @@ TEST_CASE("readings of one station that disagree are both graded care") {
           "differs by 5.7 mGal from A (1), 2.0 times the value expected from s");
     result.rows[1].row.rate_degc_per_h = 0.3;  // it must be repeated and is not used for comparison
     CHECK(first_grade(result) == Grade::trust);
+}
+
+TEST_CASE("of many readings of a station the worst pair is graded, with a limit for their number") {
+    SurveyCorrection result = quiet(6);
+    result.stations.resize(1);
+    for (std::size_t i = 1; i < result.rows.size(); ++i) {
+        result.rows[i].row.site = "A";
+        result.rows[i].row.occupation = static_cast<int>(i) + 1;
+    }
+    // The studentised range of 15 pairs: 2.97 sqrt(2) s = 8.4 mGal.
+    result.rows[2].corrected = MilliGal(8.3);
+    CHECK(first_grade(result) == Grade::trust);
+    result.rows[2].corrected = MilliGal(8.5);
+    const std::vector<ReadingGrade> grades = grade_readings(result);
+    CHECK(grades[2].reasons.size() == 1);
+    CHECK(std::ranges::count(grades, Grade::care, &ReadingGrade::grade) == 2);
+}
+
+TEST_CASE("readings of a network are compared by the scatter that each states") {
+    SurveyCorrection result = quiet(2);
+    result.own = NetworkPart{};
+    result.options.priors.reading_sd_mgal = 1.0;  // s is twice as large
+    result.rows[1].row.site = "A";
+    result.rows[1].row.occupation = 2;
+    result.stations.pop_back();
+    result.rows[0].row.u_average =
+        MilliGal(3.0);  // s: hypot(2, 6), with the other 2: hypot(6.32, 2)
+    result.rows[1].corrected = MilliGal(13.2);
+    CHECK(first_grade(result) == Grade::trust);
+    result.rows[1].corrected = MilliGal(13.3);
+    CHECK(first_grade(result) == Grade::care);
+}
+
+TEST_CASE("a named mistake makes no other reading doubtful") {
+    SurveyCorrection result = quiet(3);
+    result.rows[0].residual = MilliGal(-20.0);
+    result.rows[1].row.site = "A";
+    result.rows[1].row.occupation = 2;
+    result.rows[1].corrected = MilliGal(20.0);
+    CHECK(first_grade(result) == Grade::repeat);
+    result.findings.push_back({.kind = FindingKind::no_stop, .code = "remark"});
+    CHECK(first_grade(result) == Grade::repeat);
+    const FindingKind kind = GENERATE(FindingKind::reference, FindingKind::other_name,
+                                      FindingKind::step, FindingKind::bad_reading);
+    result.findings.push_back({.kind = kind, .code = "mistake", .site = "C", .occupation = 1});
+    CHECK(first_grade(result) == Grade::trust);
+    CHECK(grade_readings(result)[1].grade == Grade::trust);
 }
 
 TEST_CASE("a station has the best grade of its readings, with their reasons") {

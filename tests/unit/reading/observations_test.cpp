@@ -121,8 +121,9 @@ TEST_CASE(
 
 TEST_CASE("a temperature far from the others and an earlier stay with a later number are named") {
     const auto warnings = [](const std::string& numbers, const std::string& degc,
-                             const std::string& last_hour = "03") {
-        const std::vector<std::string> hours{"00", "01", "02", last_hour};
+                             const std::string& last_hour = "03",
+                             const std::string& third_hour = "02") {
+        const std::vector<std::string> hours{"00", "01", third_hour, last_hour};
         std::string rows = kTableHeader;
         for (std::size_t i = 0; i < 4; ++i)
             rows += fmt::format("A,{},0,2020-03-01T{}:00:00Z,0,981700,{}\n", numbers[i], hours[i],
@@ -141,6 +142,28 @@ TEST_CASE("a temperature far from the others and an earlier stay with a later nu
                                    "2020-03-01T02:00:00Z: check hours and zone of both"});
     CHECK(warnings("4111", "42.5", "10").size() == 1);
     CHECK(warnings("1121", "42.5", "10").empty());  // 8 h after the second stay
+    CHECK(warnings("1234", "42.5", "12", "23") ==
+          std::vector<std::string>{"A (4), 2020-03-01T12:00:00Z, is earlier than A (3), "
+                                   "2020-03-01T23:00:00Z, but below it in the table: check hours "
+                                   "and zone of both"});
+    std::vector<SurveyRow> backwards(3);
+    for (std::size_t i = 0; i < 3; ++i) {
+        backwards[i].time = UtcTime(std::chrono::hours(i));
+        backwards[i].table_row = 2 - i;
+    }
+    CHECK(row_warnings(backwards).empty());  // The table is not sorted.
+}
+
+TEST_CASE("a reference that is known to more than 1 mGal is named") {
+    SurveyRow row;
+    row.site = "A";
+    row.u_reference = MilliGal(1.0);
+    CHECK(row_warnings({row, row}).empty());
+    row.u_reference = MilliGal(10.6);
+    const auto warnings = row_warnings({row, row});
+    REQUIRE(warnings.size() == 1);
+    CHECK(warnings[0].english() ==
+          "A: gravity is known to 10.6 mGal only; or is u_gravity_mgal in microgals?");
 }
 
 TEST_CASE("the scatter of an average is that of its readings divided by the root of their number") {
