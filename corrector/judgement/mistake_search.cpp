@@ -38,9 +38,8 @@ std::vector<Mistake> with(std::vector<Mistake> mistakes, const Mistake& further)
 /// the best few are each tried at the noise of the survey in which they are put right.  There the
 /// right one is clear.
 std::optional<Mistake> next_mistake(const std::vector<SearchedReading>& readings,
-                                    adjustment::Trials& trials,
-                                    const std::vector<Mistake>& known, bool is_known_sure,
-                                    double alpha) {
+                                    adjustment::Trials& trials, const std::vector<Mistake>& known,
+                                    bool is_known_sure, double alpha) {
     constexpr std::size_t kTried = 4;
     const auto noisy = trial_of(trials, readings, known, known);
     if (!noisy || !noisy->is_possible() || !(is_known_sure || noisy->allows_trial()))
@@ -139,8 +138,8 @@ std::vector<Mistake> search_mistakes(const std::vector<SearchedReading>& reading
         const bool is_sure = is_clear(*found, alpha);
         mistakes.push_back(std::move(*found));
         if (mistakes.size() > 1) refine(mistakes, readings, trials);
-        if (!is_sure || (!is_known_sure &&
-                         !explain_together(mistakes, sure.size(), readings, trials)))
+        if (!is_sure ||
+            (!is_known_sure && !explain_together(mistakes, sure.size(), readings, trials)))
             continue;
         for (std::size_t k = 0; k < mistakes.size(); ++k)
             mistakes[k].needed_trial = k < sure.size() ? sure[k].needed_trial : !is_known_sure;

@@ -33,7 +33,10 @@ public:
         : readings_(readings), rows_(rows), choice_(choice), sites_(sites) {}
 
     [[nodiscard]] std::vector<Finding> of(const Mistake& mistake) const {
-        if (mistake.kind == adjustment::AlternativeKind::step) return {step(mistake)};
+        if (mistake.kind == adjustment::AlternativeKind::step) {
+            const auto lone = lone_stay(mistake);
+            return {lone ? stay_or_step(lone->stay, lone->other) : step(mistake)};
+        }
         if (mistake.kind == adjustment::AlternativeKind::swap) return swapped_names(mistake);
         if (mistake.kind == adjustment::AlternativeKind::set_up) return {bad_set_up(mistake)};
         if (mistake.kind == adjustment::AlternativeKind::station)
@@ -144,12 +147,66 @@ private:
 
     /// Says that a stay at an end of the day may be good, and the instrument have stepped next to it.
     void add_step(Finding& finding, const Mistake& mistake) const {
-        const auto after = step_beside(mistake);
-        if (!after) return;
+        if (const auto after = step_beside(mistake))
+            add_step(finding, model::reading_before(rows_, *after), *after);
+    }
+    void add_step(Finding& finding, std::size_t before, std::size_t after) const {
         finding.code += "_or_step";
         finding.text += text::message("; or the instrument stepped between {} and {}",
-                                      stay_name(rows_[model::reading_before(rows_, *after)]),
-                                      stay_name(rows_[*after]));
+                                      stay_name(rows_[before]), stay_name(rows_[after]));
+    }
+
+    /// A stay that is off if the instrument did not step.
+    struct LoneStay {
+        Mistake stay;
+        std::size_t other = 0;  ///< The nearest reading beyond the step that shows it.
+    };
+
+    /// Returns the only stay on one side of a step that shows it: all others there are of unknown
+    /// stations without a reading on the other side.
+    [[nodiscard]] std::optional<LoneStay> lone_stay(const Mistake& step) const {
+        const std::size_t from = step.readings.front();
+        std::vector<std::size_t> sides[2];  // readings before and after it
+        for (std::size_t i = 0; i < rows_.size(); ++i)
+            if (choice_.accepted[i] && readings_[i].loop == readings_[from].loop)
+                sides[i < from ? 0 : 1].push_back(i);
+        const auto shows_it = [&](std::size_t i, const std::vector<std::size_t>& beyond) {
+            return choice_.in_use[i] || std::ranges::any_of(beyond, [&](std::size_t k) {
+                       return rows_[k].site == rows_[i].site;
+                   });
+        };
+        for (const bool is_after : {true, false}) {
+            std::vector<std::size_t> own, beyond;
+            for (const std::size_t i : sides[is_after])
+                if (shows_it(i, sides[!is_after])) own.push_back(i);
+            for (const std::size_t i : sides[!is_after])
+                if (shows_it(i, sides[is_after])) beyond.push_back(i);
+            Mistake stay = step;
+            stay.kind = adjustment::AlternativeKind::stay;
+            stay.readings = own;
+            if (!is_after) stay.size_mgal = -step.size_mgal;
+            if (!own.empty() && !beyond.empty() &&
+                rows_[own.front()].site == rows_[own.back()].site && is_one_stay(stay))
+                return LoneStay{std::move(stay), is_after ? beyond.back() : beyond.front()};
+        }
+        return std::nullopt;
+    }
+
+    /// Says that a stay has a wrong name or is bad, or that the instrument stepped.
+    [[nodiscard]] Finding stay_or_step(const Mistake& stay, std::size_t other) const {
+        const auto others = read_sites(stay);
+        Finding finding = others.empty() ? finding_of(stay, FindingKind::bad_reading,
+                                                      "stay_disagrees", first(stay))
+                                         : other_name(stay, others);
+        if (others.empty()) {
+            finding.text =
+                text::message("{} is {}: its name or its reference is wrong, or the stay is bad",
+                              stay_name(first(stay)), off_by(stay.size_mgal, stay.u_mgal));
+            finding.amendment = exclusion(first(stay), false, stay);
+        }
+        add_step(finding, std::min(other, stay.readings.back()),
+                 std::max(other, stay.readings.front()));
+        return finding;
     }
 
     /// Returns the first reading after a step that would look like this mistake, if there is one.
@@ -254,7 +311,8 @@ private:
         Finding finding = finding_of(mistake, FindingKind::reference, "references_contradict", row);
         finding.other_site = rival;
         finding.text = text::message(
-            "the references of {} and {} contradict each other by {} +- {} mGal, or a stay there is "
+            "the references of {} and {} contradict each other by {} +- {} mGal, or a stay there "
+            "is "
             "bad; nothing shows which",
             row.site, rival, in_mgal(std::abs(mistake.size_mgal), mistake.u_mgal),
             in_mgal(mistake.u_mgal, mistake.u_mgal));

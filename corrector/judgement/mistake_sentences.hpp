@@ -18,10 +18,9 @@ namespace a351::corrector::judgement {
 /// uncertainties of the reading.  There is no amendment for rows without ListedSetUp::site.
 /// @param readings, rows, choice  all readings of the search, and those of its fit.
 /// @param sites  sites whose name may be right.
-[[nodiscard]] std::vector<reading::Finding> findings_of(const Mistake& mistake,
-                                                        const std::vector<SearchedReading>& readings,
-                                                        const std::vector<reading::SurveyRow>& rows,
-                                                        const model::RowChoice& choice,
-                                                        const std::vector<text::Site>& sites);
+[[nodiscard]] std::vector<reading::Finding> findings_of(
+    const Mistake& mistake, const std::vector<SearchedReading>& readings,
+    const std::vector<reading::SurveyRow>& rows, const model::RowChoice& choice,
+    const std::vector<text::Site>& sites);
 
 }  // namespace a351::corrector::judgement

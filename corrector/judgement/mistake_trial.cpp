@@ -77,7 +77,8 @@ std::vector<Mistake> possible_mistakes(const std::vector<SearchedReading>& readi
     for (std::size_t a = 0; a < stays.size(); ++a)
         for (std::size_t b = a + 1; b < stays.size(); ++b) {
             if (!stays[a].reference_mgal || !stays[b].reference_mgal ||
-                readings[stays[a].readings.front()].loop != readings[stays[b].readings.front()].loop)
+                readings[stays[a].readings.front()].loop !=
+                    readings[stays[b].readings.front()].loop)
                 continue;
             // Readings of b under the name of a are too high by the difference.
             add(Kind::swap, stays[a].readings);
@@ -160,10 +161,9 @@ std::vector<Suspect> suspects_of(const adjustment::Residuals& residuals,
         suspect.length = std::sqrt(square) * (mistake.others.empty() ? 1.0 : size);
         if (!(suspect.length > 0.0)) continue;
         suspect.factor = mistake.others.empty() ? 1.0 / suspect.length : mistake.size_mgal;
-        suspect.scatter_square =
-            residuals.is_plain()
-                ? suspect.factor * suspect.factor * square
-                : suspect.factor * suspect.factor * scattered_of(residuals, mistake);
+        suspect.scatter_square = residuals.is_plain() ? suspect.factor * suspect.factor * square
+                                                      : suspect.factor * suspect.factor *
+                                                            scattered_of(residuals, mistake);
         suspect.mistake = std::move(mistake);
         suspects.push_back(std::move(suspect));
     }
@@ -180,8 +180,8 @@ std::vector<Suspect> suspects_of(const adjustment::Residuals& residuals,
         const auto end = next == nullptr
                              ? effect.end()
                              : std::ranges::find(effect, next->mistake.readings.front());
-        suspect->sum = next == nullptr ? sums.of(effect)
-                                       : sums.more({effect.begin(), end}, next->sum);
+        suspect->sum =
+            next == nullptr ? sums.of(effect) : sums.more({effect.begin(), end}, next->sum);
         next = &*suspect;
     }
     return suspects;
@@ -246,9 +246,8 @@ struct Trial::Products {
     double square = 0.0;
 
     [[nodiscard]] static double of(const Suspect& suspect, const std::vector<double>& sums) {
-        return suspect.factor *
-               (suspect.has_size() ? sums[suspect.sum] - sums[suspect.other_sum]
-                                   : sums[suspect.sum]);
+        return suspect.factor * (suspect.has_size() ? sums[suspect.sum] - sums[suspect.other_sum]
+                                                    : sums[suspect.sum]);
     }
 
     /// Returns the share of the scatter that a mistake explains, 0 to 1.
@@ -282,7 +281,8 @@ double Trial::gain_of(const Trial& other, std::span<const Mistake> mistakes) con
     for (const Mistake& mistake : mistakes)
         for (const Suspect& suspect : suspects_)
             if (suspect.mistake.is_same(mistake)) cost += suspect.cost;
-    return 0.5 * dof_ * std::log(residuals_->seen().square / other.residuals_->seen().square) - cost;
+    return 0.5 * dof_ * std::log(residuals_->seen().square / other.residuals_->seen().square) -
+           cost;
 }
 
 std::vector<Scored> Trial::best(std::size_t count) const {

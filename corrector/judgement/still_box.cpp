@@ -1,27 +1,25 @@
 #include "corrector/judgement/still_box.hpp"
 
 #include <cmath>
-#include <numbers>
 
 #include "corrector/judgement/reading_name.hpp"
-#include "protocol/text/aligned_text.hpp"
+#include "protocol/core/units.hpp"
 
 namespace a351::corrector::judgement {
 namespace {
 
 using reading::SurveyRow;
 
-constexpr double kLevel_deg = 0.001;
+constexpr double kLevel_deg = 0.001, kSetUpLevel_deg = 0.0003;
 constexpr MilliGal kNorm(10.0);
 constexpr std::size_t kFewestStill = 4;
 
-bool has_moved(const SurveyRow& one, const SurveyRow& other) {
+bool has_moved(const SurveyRow& one, const SurveyRow& other, double level_deg) {
     if (!one.record || !other.record || one.face != other.face) return true;
     const double x = (other.record->x.mean - one.record->x.mean).value(),
                  y = (other.record->y.mean - one.record->y.mean).value();
     const double norm_mgal = (other.measured() - one.measured()).value();
-    return !(std::hypot(x, y) * 180.0 / std::numbers::pi <= kLevel_deg &&
-             std::abs(norm_mgal) <= kNorm.value());
+    return !(std::hypot(x, y) * kDegPerRad <= level_deg && std::abs(norm_mgal) <= kNorm.value());
 }
 
 }  // namespace
@@ -29,7 +27,7 @@ bool has_moved(const SurveyRow& one, const SurveyRow& other) {
 std::optional<reading::Finding> still_box(const std::vector<SurveyRow>& rows) {
     std::size_t first = 0, stays = 1;
     for (std::size_t i = 1; i <= rows.size(); ++i) {
-        if (i < rows.size() && !has_moved(rows[i - 1], rows[i])) {
+        if (i < rows.size() && !has_moved(rows[i - 1], rows[i], kLevel_deg)) {
             if (rows[i].site != rows[i - 1].site) ++stays;
             continue;
         }
@@ -47,6 +45,27 @@ std::optional<reading::Finding> still_box(const std::vector<SurveyRow>& rows) {
         stays = 1;
     }
     return std::nullopt;
+}
+
+std::vector<reading::Finding> set_ups_not_lifted(const std::vector<SurveyRow>& rows) {
+    std::vector<reading::Finding> findings;
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+        const SurveyRow& row = rows[i];
+        if (row.site != rows[i - 1].site || row.occupation != rows[i - 1].occupation ||
+            row.is_excluded || has_moved(rows[i - 1], row, kSetUpLevel_deg))
+            continue;
+        reading::Finding& finding = findings.emplace_back(
+            reading::Finding{.kind = reading::FindingKind::not_lifted, .code = "not_lifted"});
+        set_stay(finding, row, row.start.value_or(row.time));
+        finding.text = text::message(
+            "{} ({}): the box was not lifted before the set-up at {}, so its placement was not "
+            "averaged and u is too small",
+            row.site, row.occupation, to_rfc3339(*finding.time));
+        if (!row.listed.site.empty())
+            finding.amendment =
+                reading::amendment_head("exclude", row.listed) + "reason = \"box not lifted\"\n";
+    }
+    return findings;
 }
 
 }  // namespace a351::corrector::judgement

@@ -219,6 +219,7 @@ Search search(const model::SurveyCorrection& result, const SearchedSurvey& surve
     if (auto finding = far_bias(result.rows)) findings.push_back(std::move(*finding));
     // A mistake that was found is a misfit of its own.
     if (!right) say_misfits(result, findings);
+    for (Finding& remark : set_ups_not_lifted(survey.rows)) findings.push_back(std::move(remark));
     for (Finding& remark : survey_remarks(result, survey.rows, survey.sites))
         findings.push_back(std::move(remark));
     found.findings = std::move(findings);

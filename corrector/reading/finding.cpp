@@ -12,10 +12,11 @@ namespace a351::corrector::reading {
 std::string_view to_text(FindingKind kind) {
     // In the order of the enumerators.
     constexpr auto kTexts = std::to_array<std::string_view>(
-        {"moved_box", "other_name", "reference", "step", "bad_reading", "misfit", "unusable_day",
-         "scale", "start_up_test", "turned", "not_visited", "no_stop", "early_start",
-         "missed_set_up", "short_stay", "base_not_revisited", "doubtful_site", "clock",
-         "other_unit"});
+        {"moved_box",          "other_name",    "reference",    "step",
+         "bad_reading",        "misfit",        "unusable_day", "scale",
+         "start_up_test",      "turned",        "not_visited",  "no_stop",
+         "early_start",        "missed_set_up", "not_lifted",   "short_stay",
+         "base_not_revisited", "doubtful_site", "clock",        "other_unit"});
     return kTexts.at(static_cast<std::size_t>(kind));
 }
 

@@ -31,6 +31,7 @@ namespace a351::corrector::reading {
 /// - no_stop: the stay was not stopped.
 /// - early_start: the box was still moved when the stay was started.
 /// - missed_set_up: the box was lifted and set down during the stay, and no set-up was entered.
+/// - not_lifted: the set-up has the placement of the one before it.
 /// - short_stay: the set-up is much shorter than the others of the day.
 /// - base_not_revisited: the base has one stay only.
 /// - doubtful_site: the list of sites has one that does not fit the others.
@@ -51,6 +52,7 @@ enum class FindingKind {
     no_stop,
     early_start,
     missed_set_up,
+    not_lifted,
     short_stay,
     base_not_revisited,
     doubtful_site,

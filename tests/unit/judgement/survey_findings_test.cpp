@@ -3,6 +3,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "corrector/judgement/mistake_sentences.hpp"
+#include "corrector/judgement/still_box.hpp"
 #include "corrector/model/survey_correction.hpp"
 #include "tests/unit/model/survey_rows.hpp"
 
@@ -121,6 +123,26 @@ TEST_CASE("stays at several benchmarks of a box that did not move make a day unu
     CHECK_FALSE(is_still());
 }
 
+TEST_CASE("a set-up of a box that was not lifted is named, with its exclusion") {
+    std::vector<reading::SurveyRow> rows(3);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        rows[i].site = "A";
+        rows[i].time = UtcTime(std::chrono::minutes(10 * i));
+        rows[i].listed = {"A", 1, static_cast<int>(i) + 1};
+        rows[i].record.emplace().x.mean = StandardGravity(i == 2 ? 6e-6 : 0.0);  // 0.00034 deg
+    }
+    const auto found = judgement::set_ups_not_lifted(rows);
+    REQUIRE(found.size() == 1);
+    CHECK(
+        found[0].text ==
+        "A (1): the box was not lifted before the set-up at 1970-01-01T00:10:00Z, so its placement "
+        "was not averaged and u is too small");
+    CHECK(found[0].amendment ==
+          "[[exclude]]\nsite = \"A\"\noccupation = 1\nset_up = 2\nreason = \"box not lifted\"\n");
+    rows[1].occupation = 2;
+    CHECK(judgement::set_ups_not_lifted(rows).empty());  // It came back.
+}
+
 TEST_CASE("a reading under another site's name is named with that site") {
     Day day;
     const text::Site& other = day.sites.back();
@@ -165,6 +187,54 @@ TEST_CASE("swapped names are two findings, a step has its time") {
         CHECK(step->text.english().find("too low") != std::string::npos);
         CHECK(step->amendment.find("[[step]]\ntime_utc = ") == 0);
     }
+}
+
+TEST_CASE("a step that one stay alone shows may be a wrong name of this stay") {
+    using adjustment::AlternativeKind;
+    // A and B are known; the last stay, called B, was at A.
+    std::vector<reading::SurveyRow> rows;
+    std::vector<judgement::SearchedReading> readings;
+    for (const std::string site : {"A", "B", "C", "D", "E", "B"}) {
+        reading::SurveyRow& row = rows.emplace_back();
+        row.site = site;
+        row.occupation =
+            static_cast<int>(std::ranges::count(rows, site, &reading::SurveyRow::site));
+        row.time = UtcTime(std::chrono::hours(rows.size()));
+        row.listed = {site, row.occupation, std::nullopt};
+        if (site == "A") row.reference = MilliGal(979860.0);
+        if (site == "B") row.reference = MilliGal(979770.0);
+        readings.emplace_back().site = site;
+        readings.back().occupation = row.occupation;
+    }
+    std::vector<text::Site> sites{{"A", {}, {}, {}, MilliGal(979860.0)}};
+    const auto finding_of = [&](std::size_t from, double size_mgal) {
+        judgement::Mistake step;
+        step.kind = AlternativeKind::step;
+        for (std::size_t i = from; i < rows.size(); ++i) step.readings.push_back(i);
+        step.size_mgal = size_mgal;
+        step.u_mgal = 2.0;
+        return judgement::findings_of(step, readings, rows, model::choose_rows(rows, {}, true),
+                                      sites)
+            .front();
+    };
+    const Finding name = finding_of(2, 89.0);
+    CHECK(
+        name.text ==
+        "B (2) is 89.0 +- 2.0 mGal too high; it reads like A (1.0 mGal); or the instrument stepped "
+        "between B (1) and B (2)");
+    CHECK(name.kind == FindingKind::other_name);
+    CHECK(name.amendment.starts_with("[[rename]]\nsite = \"B\"\noccupation = 2\nto = \"A\"\n"));
+    const Finding bad = finding_of(4, 60.0);
+    CHECK(bad.text ==
+          "B (2) is 60.0 +- 2.0 mGal too high: its name or its reference is wrong, or the stay is "
+          "bad; or the instrument stepped between B (1) and B (2)");
+    CHECK(bad.amendment.starts_with("[[exclude]]\nsite = \"B\"\noccupation = 2\n"));
+    const Finding early = finding_of(1, 90.0);  // Only A is before it.
+    CHECK(early.text.english().starts_with("A (1) is 90.0 +- 2.0 mGal too low: "));
+    CHECK(early.text.english().ends_with("the instrument stepped between A (1) and B (1)"));
+    rows[1].site = readings[1].site = "E";  // A second station that is read on both sides.
+    rows[1].reference.reset();
+    CHECK(finding_of(2, 89.0).kind == FindingKind::step);
 }
 
 TEST_CASE("a bad reading of a station with others is to be repeated") {
