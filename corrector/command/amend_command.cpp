@@ -15,6 +15,7 @@
 #include "corrector/job/survey_readings.hpp"
 #include "corrector/job/survey_units.hpp"
 #include "protocol/core/input_error.hpp"
+#include "protocol/text/aligned_text.hpp"
 #include "protocol/text/progress_bar.hpp"
 
 namespace a351::corrector::command {
@@ -42,14 +43,15 @@ std::vector<reading::Finding> chosen_findings(const std::vector<reading::Finding
                                               const AmendOptions& options) {
     std::vector<reading::Finding> chosen;
     if (options.is_all) chosen = findings;
+    std::vector<std::string> allowed;
+    for (std::size_t k = 0; k < findings.size(); ++k)
+        if (!findings[k].amendment.empty()) allowed.push_back(std::to_string(k + 1));
     for (const int number : std::set<int>(options.findings.begin(), options.findings.end())) {
-        if (number < 1 || number > static_cast<int>(findings.size()))
-            throw InputError(fmt::format("--finding = {}: no such finding; allowed: 1 to {}",
-                                         number, findings.size()));
+        if (std::ranges::count(allowed, std::to_string(number)) == 0)
+            throw InputError(fmt::format(
+                "--finding = {}: no finding with a proposal; allowed: {}", number,
+                allowed.empty() ? "none, because no finding has one" : text::joined(allowed)));
         chosen.push_back(findings[static_cast<std::size_t>(number - 1)]);
-        if (chosen.back().amendment.empty())
-            throw InputError(
-                fmt::format("--finding = {}: it has no amendment; allowed: one that has", number));
     }
     std::erase_if(chosen,
                   [](const reading::Finding& finding) { return finding.amendment.empty(); });

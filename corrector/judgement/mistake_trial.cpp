@@ -122,27 +122,29 @@ bool is_half_known(const Mistake& mistake, const std::vector<Mistake>& known) {
     });
 }
 
-/// Returns the square of the length of an effect, or of the difference of two; 0 if the unknown
-/// quantities explain it, but for a part that says nothing.
+/// Returns the square of the length of an effect, or of the difference of two.
+double square_of(const Mistake& mistake, const auto& product) {
+    const double square = product(mistake.readings, mistake.readings);
+    if (mistake.others.empty()) return square;
+    return square + product(mistake.others, mistake.others) -
+           2.0 * product(mistake.readings, mistake.others);
+}
+
+/// Returns the square of the length; 0 if the unknown quantities explain the effect, but for a part
+/// that says nothing.
 double information_of(const adjustment::Residuals& residuals, const Mistake& mistake) {
     // Below this share the uncertainty of the size is 1000 times that of the readings.
     constexpr double kLeastShare = 1e-6;
-    double square = residuals.information(mistake.readings, mistake.readings),
-           whole = residuals.whole(mistake.readings);
-    if (!mistake.others.empty()) {
-        square += residuals.information(mistake.others, mistake.others) -
-                  2.0 * residuals.information(mistake.readings, mistake.others);
-        whole += residuals.whole(mistake.others);
-    }
+    const double square = square_of(
+        mistake, [&](const auto& a, const auto& b) { return residuals.information(a, b); });
+    double whole = residuals.whole(mistake.readings);
+    if (!mistake.others.empty()) whole += residuals.whole(mistake.others);
     return square > kLeastShare * whole ? square : 0.0;
 }
 
 double scattered_of(const adjustment::Residuals& residuals, const Mistake& mistake) {
-    double square = residuals.scattered(mistake.readings, mistake.readings);
-    if (!mistake.others.empty())
-        square += residuals.scattered(mistake.others, mistake.others) -
-                  2.0 * residuals.scattered(mistake.readings, mistake.others);
-    return square;
+    return square_of(mistake,
+                     [&](const auto& a, const auto& b) { return residuals.scattered(a, b); });
 }
 
 /// Finds those of which the residuals contain something.
@@ -161,9 +163,8 @@ std::vector<Suspect> suspects_of(const adjustment::Residuals& residuals,
         suspect.length = std::sqrt(square) * (mistake.others.empty() ? 1.0 : size);
         if (!(suspect.length > 0.0)) continue;
         suspect.factor = mistake.others.empty() ? 1.0 / suspect.length : mistake.size_mgal;
-        suspect.scatter_square = residuals.is_plain() ? suspect.factor * suspect.factor * square
-                                                      : suspect.factor * suspect.factor *
-                                                            scattered_of(residuals, mistake);
+        suspect.scatter_square = suspect.factor * suspect.factor *
+                                 (residuals.is_plain() ? square : scattered_of(residuals, mistake));
         suspect.mistake = std::move(mistake);
         suspects.push_back(std::move(suspect));
     }
@@ -173,7 +174,7 @@ std::vector<Suspect> suspects_of(const adjustment::Residuals& residuals,
         const adjustment::Effect& effect = suspect->mistake.readings;
         if (suspect->mistake.kind != Kind::step) {
             suspect->sum = sums.of(effect);
-            if (suspect->has_size()) suspect->other_sum = sums.of(suspect->mistake.others);
+            if (suspect->is_swap()) suspect->other_sum = sums.of(suspect->mistake.others);
             continue;
         }
         const Suspect*& next = next_step[readings[effect.front()].loop];
@@ -191,7 +192,7 @@ std::vector<Suspect> suspects_of(const adjustment::Residuals& residuals,
 double size_range_mgal(const std::vector<Suspect>& suspects) {
     std::vector<double> lengths;
     for (const Suspect& suspect : suspects)
-        if (!suspect.has_size()) lengths.push_back(suspect.length);
+        if (!suspect.is_swap()) lengths.push_back(suspect.length);
     if (lengths.empty()) return kSizeRange_mgal;
     const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
     std::ranges::nth_element(lengths, middle);
@@ -210,7 +211,7 @@ void set_costs(std::vector<Suspect>& suspects) {
     const double range_mgal = size_range_mgal(suspects);
     for (Suspect& suspect : suspects) {
         suspect.cost = std::log(counts[class_of(suspect)]);
-        if (!suspect.has_size())
+        if (!suspect.is_swap())
             suspect.cost +=
                 std::log(range_mgal * suspect.length / std::sqrt(2.0 * std::numbers::pi));
     }
@@ -246,15 +247,15 @@ struct Trial::Products {
     double square = 0.0;
 
     [[nodiscard]] static double of(const Suspect& suspect, const std::vector<double>& sums) {
-        return suspect.factor * (suspect.has_size() ? sums[suspect.sum] - sums[suspect.other_sum]
-                                                    : sums[suspect.sum]);
+        return suspect.factor * (suspect.is_swap() ? sums[suspect.sum] - sums[suspect.other_sum]
+                                                   : sums[suspect.sum]);
     }
 
     /// Returns the share of the scatter that a mistake explains, 0 to 1.
     [[nodiscard]] double share_of(const Suspect& suspect) const {
         const double t = of(suspect, weighted);
-        const double part = suspect.has_size() ? 1.0 : t;
-        const double length = suspect.has_size() ? suspect.length : 1.0;
+        const double part = suspect.is_swap() ? 1.0 : t;
+        const double length = suspect.is_swap() ? suspect.length : 1.0;
         const double gain = part * (2.0 * t - part * length * length);
         if (!(gain > 0.0)) return 0.0;
         const double rest = square -
@@ -311,7 +312,7 @@ void Trial::measure(Mistake& mistake, double level) const {
 
 Mistake Trial::measured(const Suspect& suspect) const {
     Mistake mistake = suspect.mistake;
-    if (suspect.has_size()) return mistake;
+    if (suspect.is_swap()) return mistake;
     // d'q / d'Md and 1 / sqrt(d'Md)
     double sum = 0.0;
     for (const std::size_t i : mistake.readings)

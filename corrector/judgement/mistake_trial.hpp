@@ -41,7 +41,7 @@ struct Suspect {
     double cost = 0.0;            ///< Subtracted from the score: number of its class, unknown size.
     std::size_t sum = 0, other_sum = 0;  ///< Numbers of Sums of its readings.
 
-    [[nodiscard]] bool has_size() const {
+    [[nodiscard]] bool is_swap() const {
         return mistake.kind == adjustment::AlternativeKind::swap;
     }
 };

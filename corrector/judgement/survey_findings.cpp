@@ -177,9 +177,9 @@ void say_far_terms(Search& found, const model::Model& model, const SearchedSurve
 /// @param given  priors of the user.
 Search search(const model::SurveyCorrection& result, const SearchedSurvey& survey,
               const adjustment::Priors& given, const std::vector<model::Coefficient>& far = {}) {
-    std::vector<Finding> findings = result.findings;
-    Search found;
-    std::optional<model::AmendedSurvey> right;
+    Search found{result.findings, {}, {}};
+    std::vector<Finding>& findings = found.findings;
+    std::optional<model::AmendedSurvey>& right = found.amended;
     std::optional<double> amended_loso_mgal;
     const model::Model& model = *model::find_model(result.model);
     const std::vector<SurveyRow> rows =
@@ -222,8 +222,6 @@ Search search(const model::SurveyCorrection& result, const SearchedSurvey& surve
     for (Finding& remark : set_ups_not_lifted(survey.rows)) findings.push_back(std::move(remark));
     for (Finding& remark : survey_remarks(result, survey.rows, survey.sites))
         findings.push_back(std::move(remark));
-    found.findings = std::move(findings);
-    found.amended = std::move(right);
     say_far_terms(found, model, survey, result, far, given);
     std::ranges::stable_sort(found.findings, {}, rank_of);
     return found;

@@ -37,24 +37,6 @@ Score score_paper(const SurveyProblem& problem, const RowChoice& choice) {
     return score_paper_model(problem.rows, choice.in_use, problem.options.base);
 }
 
-/// Returns T - T0, whose digits are those of the variation of the temperature.
-double above_degc(const reading::SurveyRow& row) {
-    return (row.temperature - adjustment::kReferenceTemperature).value();
-}
-
-/// Returns the line over T - T0, for leverages and errors.  The rows determine it.
-Line line_about_reference(const std::vector<reading::SurveyRow>& rows,
-                          const std::vector<bool>& in_use) {
-    const std::vector<double> differences = differences_mgal(rows);
-    std::vector<double> x, y;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        if (!in_use[i]) continue;
-        x.push_back(above_degc(rows[i]));
-        y.push_back(differences[i]);
-    }
-    return fit_line(x, y).value();
-}
-
 /// Sets the stations: means of their accepted rows, or of all their rows if none is accepted.
 void set_stations(Fit& result, const RowChoice& choice, const TemperatureLine& line) {
     for (const CorrectedRow& first : result.rows) {
@@ -77,7 +59,7 @@ void set_stations(Fit& result, const RowChoice& choice, const TemperatureLine& l
             if (!station.is_flagged_only && !choice.accepted[i]) continue;
             ++station.row_count;
             sum += row.corrected.value();
-            degc += above_degc(row.row);
+            degc += row.row.temperature.value();
         }
         const auto n = static_cast<double>(station.row_count);
         station.gravity = MilliGal(sum / n);
@@ -102,7 +84,6 @@ FitResult fit_paper(const SurveyProblem& problem, const RowChoice& choice) {
         return Refusal{fmt::format("{} rows with a reference do not determine it",
                                    std::ranges::count(choice.in_use, true)),
                        "at least 2 rows between which the temperature varies"};
-    const Line near = line_about_reference(rows, choice.in_use);
     const std::vector<double> corrected1 = temperature_corrected_mgal(rows, *line);
     const DriftStep step =
         find_end_point_drift(rows, choice.in_use, corrected1, problem.options.base);
@@ -122,15 +103,15 @@ FitResult fit_paper(const SurveyProblem& problem, const RowChoice& choice) {
         out.temperature_correction = first - rows[i].reduced();
         out.drift_correction = step.drift->at(rows[i].time);
         if (rows[i].reference) out.residual = out.corrected - *rows[i].reference;
-        out.leverage = near.leverage_at(above_degc(rows[i]));
+        out.leverage = line->leverage_at(rows[i].temperature.value());
         // u^2 = s^2 + var(line(T))
         if (const auto s = result.score.s_mgal)
             out.u_corrected = MilliGal(std::sqrt(*s * *s + *s * *s * *out.leverage));
     }
     std::optional<double> slope_error;
-    if (near.count > 2)
-        slope_error = std::sqrt(near.rss / static_cast<double>(near.count - 2)) *
-                      std::sqrt(near.slope_cofactor);
+    if (line->count > 2)
+        slope_error = std::sqrt(line->rss / static_cast<double>(line->count - 2)) *
+                      std::sqrt(line->slope_cofactor);
     result.coefficients = {
         {"temperature_mgal_per_degc", line->slope, slope_error},
         {"intercept_at_0_degc_mgal", line->intercept, std::nullopt},
@@ -139,7 +120,7 @@ FitResult fit_paper(const SurveyProblem& problem, const RowChoice& choice) {
         {"last_base_error_mgal", step.drift->last_error.value(), std::nullopt},
         {"drift_mgal_per_h", step.drift->rate_mgal_per_h(), std::nullopt},
     };
-    set_stations(result, choice, near);
+    set_stations(result, choice, *line);
     return result;
 }
 

@@ -274,19 +274,24 @@ AllanAnalysis pooled_allan(const std::vector<std::vector<double>>& parts, double
     return analysis;
 }
 
-double allan_deviation(const std::vector<double>& values, std::size_t samples) {
+double scatter_apart(const std::vector<double>& values, std::size_t samples, std::size_t apart) {
     std::vector<double> sums(values.size() + 1, 0.0);
     const double mean = signal::mean_of(values);
     for (std::size_t i = 0; i < values.size(); ++i) sums[i + 1] = sums[i] + values[i] - mean;
-    // With cumulative sums s: sigma^2 = 1/2 mean ((s[i+2m] - 2 s[i+m] + s[i]) / m)^2
-    const std::size_t count = values.size() - 2 * samples + 1;
+    // With cumulative sums s: sigma^2 = 1/2 mean ((s[i+a+m] - s[i+a] - s[i+m] + s[i]) / m)^2
+    const std::size_t count = values.size() - apart - samples + 1;
     double squares = 0.0;
     for (std::size_t i = 0; i < count; ++i) {
-        const double change = (sums[i + 2 * samples] - 2.0 * sums[i + samples] + sums[i]) /
-                              static_cast<double>(samples);
+        const double change =
+            (sums[i + apart + samples] - sums[i + apart] - sums[i + samples] + sums[i]) /
+            static_cast<double>(samples);
         squares += change * change;
     }
     return std::sqrt(0.5 * squares / static_cast<double>(count));
+}
+
+double allan_deviation(const std::vector<double>& values, std::size_t samples) {
+    return scatter_apart(values, samples, samples);
 }
 
 }  // namespace a351::corrector::noise

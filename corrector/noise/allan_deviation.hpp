@@ -92,4 +92,9 @@ struct AllanAnalysis {
 /// 5.2.4.
 [[nodiscard]] double allan_deviation(const std::vector<double>& values, std::size_t samples);
 
+/// Returns the rms difference of averages over `samples` that begin `apart` samples from each other,
+/// divided by sqrt(2).  With `apart` = `samples` it is the Allan deviation.
+[[nodiscard]] double scatter_apart(const std::vector<double>& values, std::size_t samples,
+                                   std::size_t apart);
+
 }  // namespace a351::corrector::noise

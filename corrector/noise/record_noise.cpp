@@ -11,23 +11,6 @@ namespace {
 /// Ratio to the least scatter below which an average is as good.
 constexpr double kHardlyMore = 1.1;
 
-/// Returns the rms difference of averages over `samples` that begin `apart` samples from each other,
-/// divided by sqrt(2).
-double scatter_apart(const std::vector<double>& values, std::size_t samples, std::size_t apart) {
-    std::vector<double> sums(values.size() + 1, 0.0);
-    const double mean = signal::mean_of(values);
-    for (std::size_t i = 0; i < values.size(); ++i) sums[i + 1] = sums[i] + values[i] - mean;
-    const std::size_t count = values.size() - apart - samples + 1;
-    double squares = 0.0;
-    for (std::size_t i = 0; i < count; ++i) {
-        const double change =
-            (sums[i + apart + samples] - sums[i + apart] - sums[i + samples] + sums[i]) /
-            static_cast<double>(samples);
-        squares += change * change;
-    }
-    return std::sqrt(0.5 * squares / static_cast<double>(count));
-}
-
 }  // namespace
 
 RecordNoise record_noise(const std::vector<double>& values, double step_s) {

@@ -6,9 +6,8 @@
 #include <cmath>
 
 #include "corrector/model/calibration_use.hpp"
-#include "corrector/model/whole_day_model.hpp"
+#include "corrector/series/series_rows.hpp"
 #include "corrector/whole_day/day_model.hpp"
-#include "protocol/core/input_error.hpp"
 #include "protocol/core/units.hpp"
 #include "protocol/signal/distributions.hpp"
 
@@ -20,29 +19,6 @@ constexpr std::size_t kFewestPlacements = 8;
 // Largest error of ln(placement): that of the prior alone is 0.69.
 constexpr double kGreatestLogError = 0.5;
 
-bool is_in_placement(const reading::SurveyRow& row) { return !row.is_flagged && !row.is_excluded; }
-
-[[noreturn]] void refuse_placement(const std::string& origin, const std::string& trouble,
-                                   const std::string& allowed) {
-    throw InputError(fmt::format("{}: placement: {}; allowed: {}", origin, trouble, allowed));
-}
-
-void require_placement_series(const reading::OccupationRows& read, std::size_t set_ups,
-                              const std::string& origin) {
-    for (const reading::SurveyRow& row : read.rows)
-        if (row.site != read.rows.front().site)
-            refuse_placement(origin,
-                             fmt::format("set-ups at {} and {}", read.rows.front().site, row.site),
-                             "one point");
-    if (set_ups < kFewestPlacements)
-        refuse_placement(origin, fmt::format("{} set-ups", set_ups),
-                         fmt::format("{} or more, about 20 are good", kFewestPlacements));
-    const reading::DayRecord* const day = read.day ? &*read.day : nullptr;
-    const auto refusal =
-        model::day_refusal(read.rows, std::vector<bool>(read.rows.size(), true), day);
-    if (refusal) refuse_placement(origin, *refusal, "a record without this");
-}
-
 unit::Placement with_limits(double mgal, double log_error) {
     const double factor = std::exp(signal::kNormal95 * log_error);
     return {mgal, mgal / factor, mgal * factor};
@@ -53,21 +29,25 @@ unit::Placement with_limits(double mgal, double log_error) {
 PlacementSeries measure_placement(const reading::OccupationRows& read,
                                   const unit::Calibration& known, const std::string& origin) {
     PlacementSeries series;
-    series.set_ups = static_cast<std::size_t>(std::ranges::count_if(read.rows, is_in_placement));
-    require_placement_series(read, series.set_ups, origin);
+    series.set_ups = static_cast<std::size_t>(std::ranges::count_if(read.rows, is_in_series));
+    const CheckedSeries checked{"placement", origin, read};
+    checked.require_one_point();
+    if (series.set_ups < kFewestPlacements)
+        checked.refuse(fmt::format("{} set-ups", series.set_ups),
+                       fmt::format("{} or more, about 20 are good", kFewestPlacements));
+    checked.require_day();
     // Gravity only shifts the constant.
     const MilliGal gravity =
         read.rows.front().reference.value_or(MilliGal(kMilliGalPerStandardGravity));
     whole_day::DaySurvey day{&*read.day, {}, model::day_priors_of(known)};
     for (std::size_t i = 0; i < read.rows.size(); ++i) {
         whole_day::DayStation station{gravity, 0};
-        if (!is_in_placement(read.rows[i])) station = {std::nullopt, i + 1};
+        if (!is_in_series(read.rows[i])) station = {std::nullopt, i + 1};
         day.stations.push_back(station);
     }
     const whole_day::DayFit fit = whole_day::adjust_day(std::move(day)).value().fit();
     if (!fit.noise_log_errors || fit.noise_log_errors->front() > kGreatestLogError)
-        refuse_placement(origin, "the set-ups do not determine it",
-                         "more set-ups, or a quieter place");
+        checked.refuse("the set-ups do not determine it", "more set-ups, or a quieter place");
     series.noise = fit.noise;
     series.placement = with_limits(fit.noise.placement_mgal, fit.noise_log_errors->front());
     return series;

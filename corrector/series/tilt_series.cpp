@@ -5,9 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "corrector/model/whole_day_model.hpp"
+#include "corrector/series/series_rows.hpp"
 #include "corrector/whole_day/day_model.hpp"
-#include "protocol/core/input_error.hpp"
 #include "protocol/core/units.hpp"
 #include "protocol/linear_algebra/symmetric_eigen.hpp"
 #include "protocol/text/aligned_text.hpp"
@@ -25,13 +24,6 @@ constexpr double kLeastTilt_deg = 0.5;
 // the fit may leave a tenth.
 constexpr double kGreatestRange_degc = 0.3;
 
-bool is_in_series(const reading::SurveyRow& row) { return !row.is_flagged && !row.is_excluded; }
-
-[[noreturn]] void refuse(const std::string& origin, const std::string& trouble,
-                         const std::string& allowed) {
-    throw InputError(fmt::format("{}: tilt series: {}; allowed: {}", origin, trouble, allowed));
-}
-
 double tilt_deg(StandardGravity along) {
     return kDegPerRad * std::asin(std::clamp(along.value(), -1.0, 1.0));
 }
@@ -47,28 +39,27 @@ Eigen::MatrixXd tilts_deg(const reading::OccupationRows& read) {
     return all.topRows(count);
 }
 
-void require_both_axes(const Eigen::MatrixXd& tilts, const std::string& origin) {
+void require_both_axes(const Eigen::MatrixXd& tilts, const CheckedSeries& checked) {
     const std::string allowed =
         fmt::format("both axes tilted by {} deg or more to both sides, one at a time",
                     text::fixed(kLeastTilt_deg, 1));
     for (const Eigen::Index axis : {0, 1}) {
         const double least = tilts.col(axis).minCoeff(), greatest = tilts.col(axis).maxCoeff();
         if (least <= -kLeastTilt_deg && greatest >= kLeastTilt_deg) continue;
-        refuse(origin,
-               fmt::format("{} is tilted from {} to {} deg", axis == 0 ? "x" : "y",
-                           text::fixed(least, 2), text::fixed(greatest, 2)),
-               allowed);
+        checked.refuse(fmt::format("{} is tilted from {} to {} deg", axis == 0 ? "x" : "y",
+                                   text::fixed(least, 2), text::fixed(greatest, 2)),
+                       allowed);
     }
     const Eigen::MatrixXd centred = tilts.rowwise() - tilts.colwise().mean();
     const linear_algebra::SymmetricEigen axes = linear_algebra::symmetric_eigen(
         centred.transpose() * centred / static_cast<double>(tilts.rows()));
     const double across = std::sqrt(std::max(0.0, axes.values(0)));
     if (across < kLeastTilt_deg / 2.0)
-        refuse(origin,
-               fmt::format("x and y are tilted together: in the other direction the tilts scatter "
-                           "by only {} deg",
-                           text::fixed(across, 2)),
-               allowed);
+        checked.refuse(
+            fmt::format("x and y are tilted together: in the other direction the tilts scatter "
+                        "by only {} deg",
+                        text::fixed(across, 2)),
+            allowed);
 }
 
 double temperature_range_degc(const reading::OccupationRows& read) {
@@ -81,25 +72,17 @@ double temperature_range_degc(const reading::OccupationRows& read) {
     return greatest - least;
 }
 
-void require_tilt_series(const reading::OccupationRows& read, const TiltSeries& series,
-                         const std::string& origin) {
-    for (const reading::SurveyRow& row : read.rows)
-        if (row.site != read.rows.front().site)
-            refuse(origin, fmt::format("set-ups at {} and {}", read.rows.front().site, row.site),
-                   "one point");
+void require_tilt_series(const TiltSeries& series, const CheckedSeries& checked) {
+    checked.require_one_point();
     if (series.set_ups < kFewestSetUps)
-        refuse(origin, fmt::format("{} set-ups", series.set_ups),
-               fmt::format("{} or more", kFewestSetUps));
+        checked.refuse(fmt::format("{} set-ups", series.set_ups),
+                       fmt::format("{} or more", kFewestSetUps));
     if (series.temperature_range_degc > kGreatestRange_degc)
-        refuse(origin,
-               fmt::format("the temperature moved by {} degC between set-ups",
-                           text::fixed(series.temperature_range_degc, 2)),
-               text::fixed(kGreatestRange_degc, 1) + " degC");
-    const reading::DayRecord* const day = read.day ? &*read.day : nullptr;
-    const auto refusal =
-        model::day_refusal(read.rows, std::vector<bool>(read.rows.size(), true), day);
-    if (refusal) refuse(origin, *refusal, "a record without this");
-    require_both_axes(tilts_deg(read), origin);
+        checked.refuse(fmt::format("the temperature moved by {} degC between set-ups",
+                                   text::fixed(series.temperature_range_degc, 2)),
+                       text::fixed(kGreatestRange_degc, 1) + " degC");
+    checked.require_day();
+    require_both_axes(tilts_deg(checked.read), checked);
 }
 
 /// Returns the bins with the reading |mean vector - biases|, biases in mGal.
@@ -122,7 +105,7 @@ TiltSeries measure_axis_bias(const reading::OccupationRows& read, const std::str
     TiltSeries series;
     series.set_ups = static_cast<std::size_t>(std::ranges::count_if(read.rows, is_in_series));
     series.temperature_range_degc = temperature_range_degc(read);
-    require_tilt_series(read, series, origin);
+    require_tilt_series(series, {"tilt series", origin, read});
     const Eigen::MatrixXd tilts = tilts_deg(read);
     for (const std::size_t axis : {0U, 1U}) {
         const auto column = tilts.col(static_cast<Eigen::Index>(axis));

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "corrector/series/series_rows.hpp"
 #include "corrector/whole_day/day_noise.hpp"
-#include "protocol/core/input_error.hpp"
 #include "protocol/core/units.hpp"
 #include "protocol/linear_algebra/cholesky.hpp"
 #include "protocol/linear_algebra/normal_matrix.hpp"
@@ -55,24 +55,14 @@ struct Position {
     double degc = 0.0, gravity_mgal = 0.0, error_mgal = 0.0;
 };
 
-bool is_position(const reading::SurveyRow& row) { return !row.is_flagged && !row.is_excluded; }
-
-[[noreturn]] void refuse_tumble(const std::string& origin, const std::string& trouble,
-                                const std::string& allowed) {
-    throw InputError(fmt::format("{}: tumble: {}; allowed: {}", origin, trouble, allowed));
-}
-
-std::vector<Position> positions_of(const reading::OccupationRows& read, const std::string& origin) {
+std::vector<Position> positions_of(const CheckedSeries& checked) {
+    checked.require_one_point();
     std::vector<Position> positions;
-    const reading::SurveyRow& first = read.rows.front();
-    for (const reading::SurveyRow& row : read.rows) {
-        if (row.site != first.site)
-            refuse_tumble(origin, fmt::format("positions at {} and {}", first.site, row.site),
-                          "one point");
+    for (const reading::SurveyRow& row : checked.read.rows) {
         if (!row.reference)
-            refuse_tumble(origin, fmt::format("the gravity of {} is not known", row.site),
-                          "a gravity_mgal in the table of sites");
-        if (!is_position(row)) continue;
+            checked.refuse(fmt::format("the gravity of {} is not known", row.site),
+                           "a gravity_mgal in the table of sites");
+        if (!is_in_series(row)) continue;
         const reading::RecordSummary& record = row.axes_for("tumble");
         Position position;
         position.mean_mgal =
@@ -88,17 +78,16 @@ std::vector<Position> positions_of(const reading::OccupationRows& read, const st
     return positions;
 }
 
-void require_all_up_and_down(const std::vector<Position>& positions, const std::string& origin) {
+void require_all_up_and_down(const std::vector<Position>& positions, const CheckedSeries& checked) {
     for (Index axis = 0; axis < 3; ++axis)
         for (const double sign : {1.0, -1.0}) {
             if (std::ranges::any_of(positions, [&](const Position& position) {
                     return sign * position.mean_mgal(axis) > kUpright * position.gravity_mgal;
                 }))
                 continue;
-            refuse_tumble(origin,
-                          fmt::format("no position with {} {}", kTumbleAxes[std::size_t(axis)],
-                                      sign > 0.0 ? "up" : "down"),
-                          "six or more positions, each axis up and down");
+            checked.refuse(fmt::format("no position with {} {}", kTumbleAxes[std::size_t(axis)],
+                                       sign > 0.0 ? "up" : "down"),
+                           "six or more positions, each axis up and down");
         }
 }
 
@@ -243,8 +232,9 @@ void set_terms(Tumble& tumble, const Solution& found, const Parameters& deviatio
 }  // namespace
 
 Tumble measure_tumble(const reading::OccupationRows& read, const std::string& origin) {
-    std::vector<Position> positions = positions_of(read, origin);
-    require_all_up_and_down(positions, origin);
+    const CheckedSeries checked{"tumble", origin, read};
+    std::vector<Position> positions = positions_of(checked);
+    require_all_up_and_down(positions, checked);
     Tumble tumble;
     tumble.positions = positions.size();
     tumble.gravity = *read.rows.front().reference;

@@ -53,9 +53,10 @@ constexpr const char* kStay = "Key of the stay, from list; default: the running 
 
 void add_at(CLI::App* command, Arguments& a) {
     command
-        ->add_option("--at", a.at,
-                     "Instant in the recorded past: RFC 3339, local HH:MM[:SS] or -12min; "
-                     "default: the last sample")
+        ->add_option(
+            "--at", a.at,
+            "Instant in the recorded past: RFC 3339, local HH:MM[:SS], HH:MMZ in UTC or -12min; "
+            "default: the last sample")
         ->type_name("WHEN");
 }
 
@@ -192,7 +193,9 @@ void add_rename(CLI::App& app, Arguments& a) {
 void add_retime(CLI::App& app, Arguments& a) {
     auto* retime = app.add_subcommand("retime", "Corrects start or end of a stay.");
     add_named_stay(retime, a);
-    retime->add_option("--from", a.from, "New start: RFC 3339, local HH:MM[:SS] or -12min")
+    retime
+        ->add_option("--from", a.from,
+                     "New start: RFC 3339, local HH:MM[:SS], HH:MMZ in UTC or -12min")
         ->type_name("WHEN");
     retime->add_option("--to", a.to, "New end, likewise")->type_name("WHEN");
     add_reason(retime, a);

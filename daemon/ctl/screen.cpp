@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "daemon/ctl/requests.hpp"
+#include "protocol/text/columns.hpp"
 #include "protocol/text/message.hpp"
 
 namespace a351::daemon::ctl {
@@ -48,12 +49,13 @@ std::string coloured(const std::string& text, const std::string& level, bool is_
 std::string table(const std::vector<std::vector<std::string>>& rows) {
     std::vector<std::size_t> widths(rows.front().size(), 0);
     for (const auto& row : rows)
-        for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+        for (std::size_t i = 0; i < row.size(); ++i)
+            widths[i] = std::max(widths[i], text::columns_of(row[i]));
     std::string text;
     for (const auto& row : rows) {
         std::string shown;
         for (std::size_t i = 0; i < row.size(); ++i)
-            shown += row[i] + std::string(widths[i] - row[i].size() + 2, ' ');
+            shown += row[i] + std::string(widths[i] - text::columns_of(row[i]) + 2, ' ');
         text += shown.substr(0, shown.find_last_not_of(' ') + 1) + "\n";
     }
     return text;
@@ -105,7 +107,8 @@ std::string occupation_table(const json& answer) {
         const json& set_ups = at(one, "set_ups");
         const json& gravity = at(one, "gravity");
         rows.push_back({text_of(one, "site"), number, text_of(set_ups.front(), "start"),
-                        text_of(set_ups.back(), "end"), number_of(gravity, "gravity_mgal", "{:.1f}"),
+                        text_of(set_ups.back(), "end"),
+                        number_of(gravity, "gravity_mgal", "{:.1f}"),
                         number_of(gravity, "u_mgal", "{:.1f}"), text_of(one, "key"),
                         text_of(one, "operator"), note});
     };

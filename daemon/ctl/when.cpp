@@ -54,8 +54,10 @@ UtcTime on_local_day(int days_ago, const std::array<int, 3>& time, UtcTime now) 
     return later <= now ? later : earlier;
 }
 
-/// Reads HH:MM or HH:MM:SS.
-std::optional<UtcTime> parse_local(std::string_view text, UtcTime now) {
+/// Reads HH:MM or HH:MM:SS of the host's zone, or with Z of UTC.
+std::optional<UtcTime> parse_time_of_day(std::string_view text, UtcTime now) {
+    const bool is_utc = text.ends_with('Z');
+    if (is_utc) text.remove_suffix(1);
     const auto two = [&](std::size_t place, int largest) -> std::optional<int> {
         const char tens = text[place], ones = text[place + 1];
         if (tens < '0' || tens > '9' || ones < '0' || ones > '9') return std::nullopt;
@@ -70,7 +72,10 @@ std::optional<UtcTime> parse_local(std::string_view text, UtcTime now) {
     if (!hour || !minute || !second) return std::nullopt;
     std::optional<UtcTime> found;
     for (int days_ago = 0; days_ago <= 1 && (!found || *found > now + kAhead); ++days_ago)
-        found = on_local_day(days_ago, {*hour, *minute, *second}, now);
+        found = is_utc ? std::chrono::floor<std::chrono::days>(now) - std::chrono::days(days_ago) +
+                             std::chrono::hours(*hour) + std::chrono::minutes(*minute) +
+                             std::chrono::seconds(*second)
+                       : on_local_day(days_ago, {*hour, *minute, *second}, now);
     return found;
 }
 
@@ -79,7 +84,7 @@ std::optional<UtcTime> parse_local(std::string_view text, UtcTime now) {
 std::optional<UtcTime> parse_when(std::string_view text, UtcTime now) {
     if (const auto instant = parse_rfc3339(text)) return instant;
     if (const auto instant = parse_ago(text, now)) return instant;
-    return parse_local(text, now);
+    return parse_time_of_day(text, now);
 }
 
 }  // namespace a351::daemon::ctl

@@ -266,6 +266,8 @@ Response Api::change(std::string_view path, const std::string& body) {
         const auto order = parse_order(body, {"key", "site", "at", "face"});
         if (const auto other = other_stay(order, occupations.running()); !other.empty())
             return refusal(409, other);
+        if (const auto missing = missing_samples(); !order.at && !missing.empty())
+            return refusal(409, missing);
         const auto last = sources_.live.last_sample();
         const auto at = order.at ? order.at : last;
         outcome = occupations.setup(
@@ -285,7 +287,7 @@ Response Api::change(std::string_view path, const std::string& body) {
     return answer_of(outcome, occupations.running());
 }
 
-/// Says since when no samples have come, so that a stay cannot begin now; empty if they come.
+/// Says since when no samples have come, so that no stay or set-up can begin now; empty if they come.
 text::Message Api::missing_samples() const {
     constexpr int kPatience = 4;  // A plug that is loose for a moment is no reason to refuse.
     const status::Status status = sources_.status();
@@ -293,8 +295,9 @@ text::Message Api::missing_samples() const {
     if (!status.last_sample || status.link_state == "sampling" ||
         status.now - *status.last_sample <= kPatience * sources_.stale_after)
         return {};
-    return text::message("no samples have come since {}, so a stay cannot begin now",
-                         to_rfc3339(*status.last_sample, 0));
+    return text::message(
+        "no samples have come since {}, so nothing can begin now: check the sensor's plug",
+        to_rfc3339(*status.last_sample, 0));
 }
 
 /// Says when the box of the running stay was carried away; empty if it was not seen.

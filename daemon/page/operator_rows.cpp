@@ -31,7 +31,7 @@ Row signal_row(const json& signal) {
 }
 
 /// Returns the commands of the terminal for the buttons of LOOK.
-std::string commands_of(const json& buttons, const json& stay) {
+std::string commands_of(const json& signal, const json& stay) {
     const std::string at = stay.is_object() && stay.at("moved").is_object()
                                ? stay.at("moved").at("utc").get<std::string>()
                                : "";
@@ -45,8 +45,14 @@ std::string commands_of(const json& buttons, const json& stay) {
         {"checked", "checked"},
     };
     std::string text;
-    for (const json& button : buttons)
-        text += (text.empty() ? "a351ctl " : ", or a351ctl ") + commands.at(button);
+    const auto add = [&text](const std::string& command) {
+        text += (text.empty() ? "a351ctl " : ", or a351ctl ") + command;
+    };
+    // A reading that does not fit the others may have a wrong name.
+    if (const std::string named = signal.at("look").at("key");
+        !named.empty() && signal.at("buttons") == json{"checked"})
+        add("rename " + named + " SITE");
+    for (const json& button : signal.at("buttons")) add(commands.at(button));
     return text;
 }
 
@@ -85,7 +91,7 @@ std::vector<Row> operator_rows(const json& status) {
     const json& stay = status.at("occupation");
     const json& signal = status.at("signal");
     if (signal.at("word") == "look" && !signal.at("buttons").empty())
-        rows.push_back({text::marked("commands"), commands_of(signal.at("buttons"), stay)});
+        rows.push_back({text::marked("commands"), commands_of(signal, stay)});
     rows.push_back({text::marked("occupation"),
                     stay.is_null() ? text::message("none running") : stay_text(stay)});
     if (!stay.is_null()) {

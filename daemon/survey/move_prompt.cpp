@@ -24,7 +24,8 @@ text::Message text_of(const MovePrompt& prompt) {
             time);
     return prompt.is_set_up
                ? text::message(
-                     "the box was lifted and set down at {}: begin the next set-up at that time, or "
+                     "the box was lifted and set down at {}: begin the next set-up at that time, "
+                     "or "
                      "say that it was not moved",
                      time)
                : text::message(

@@ -145,7 +145,8 @@ Outcome Occupations::retime(const Named& stay, std::optional<UtcTime> from,
                                      shown(is_early ? start : end)));
     trouble = trouble_with_overlap(stay.key, start, is_running ? UtcTime::max() : end);
     if (!trouble.empty())
-        return refused(text::message("{} cannot have these times: {}", one->text, trouble));
+        return refused(text::message("{} cannot begin at {} and end at {}: {}", one->text,
+                                     shown(start), shown(end), trouble));
     events::Event event = change_of("retime", {stay.key, one->site}, remark);
     if (from) add(event, "from", to_rfc3339(*from, 9));
     if (to) add(event, "to", to_rfc3339(*to, 9));

@@ -96,15 +96,18 @@ bool Occupations::is_at(std::optional<UtcTime> at, UtcTime utc) {
     return placed.instant && placed.instant->utc == utc;
 }
 
-/// Places the stop or a set-up of the running occupation.
-Occupations::Placed Occupations::place_in_running(std::optional<UtcTime> at) {
+/// Places the stop or a set-up of the running occupation.  A stop at the last sample may be at the start
+/// of a further set-up, which then does not count.
+Occupations::Placed Occupations::place_in_running(std::optional<UtcTime> at, bool is_stop) {
     if (!running()) return {std::nullopt, text::message("no occupation is running")};
     auto placed = place(at);
     if (placed.instant) placed.instant = in_running(*placed.instant);
-    const bool is_after =
-        placed.instant ? placed.instant->utc > running()->set_ups.back()
-                       : !at || *at > running()->set_ups.back();  // Its data may have left memory.
-    if (is_after) return placed;
+    const UtcTime last = running()->set_ups.back();
+    const bool is_after = placed.instant ? placed.instant->utc > last
+                                         : !at || *at > last;  // Its data may have left memory.
+    if (is_after || (is_stop && !at && running()->set_ups.size() > 1 && placed.instant &&
+                     placed.instant->utc == last))
+        return placed;
     return {std::nullopt, text::message("{} is not after the start of the set-up at {}, {}",
                                         shown(placed.instant ? placed.instant->utc : *at),
                                         running()->site, shown(running()->set_ups.back()))};
@@ -192,7 +195,7 @@ Outcome Occupations::stop(const Remark& remark, std::optional<UtcTime> at) {
         !running() && !all.empty() && is_at(at, all.back().set_ups.back().end))
         return unchanged(text::message("{} was stopped at {}, as ordered before", named(all.back()),
                                        shown(all.back().set_ups.back().end)));
-    const auto placed = place_in_running(at);
+    const auto placed = place_in_running(at, true);
     if (!placed.instant) return refused(placed.trouble);
     const UtcTime utc = placed.instant->utc;
     for (const auto& one : list()) {
@@ -224,7 +227,7 @@ Outcome Occupations::setup(std::optional<UtcTime> at, const events::StatedFace& 
     if (running() && running()->set_ups.size() > 1 && is_at(at, running()->set_ups.back()))
         return unchanged(text::message("further set-up at {} from {}, as ordered before",
                                        named(*running()), shown(running()->set_ups.back())));
-    const auto placed = place_in_running(at);
+    const auto placed = place_in_running(at, false);
     if (!placed.instant) return refused(placed.trouble);
     auto event = event_at("setup", *placed.instant);
     add(event, "site", running()->site);

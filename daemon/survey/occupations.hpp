@@ -195,7 +195,7 @@ private:
     [[nodiscard]] text::Message remark_on_clock();
     [[nodiscard]] Placed place(std::optional<UtcTime> at);
     [[nodiscard]] bool is_at(std::optional<UtcTime> at, UtcTime utc);
-    [[nodiscard]] Placed place_in_running(std::optional<UtcTime> at);
+    [[nodiscard]] Placed place_in_running(std::optional<UtcTime> at, bool is_stop);
     [[nodiscard]] std::optional<text::Message> trouble_with_site(std::string_view site) const;
     [[nodiscard]] events::Event about_now(std::string type);
     void note_aside(const events::Event& event);

@@ -77,7 +77,8 @@ SoFar SoFarReader::read(std::string_view document) {
         one.code = before->second;
         so_far.contradictions.push_back(std::move(one));
     }
-    const bool has_figures = text_of(read, "reason").empty() && read.contains("lesser_contradictions");
+    const bool has_figures =
+        text_of(read, "reason").empty() && read.contains("lesser_contradictions");
     if (has_figures)  // Without figures nothing is known to have ended.
         keep(std::move(still), parse_rfc3339(text_of(read, "data_to_utc")));
     return so_far;

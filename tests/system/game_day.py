@@ -60,7 +60,7 @@ with Scratch() as scratch:
     demand("without an option the proposals are only printed", (day / "survey-amendments.toml").read_text() == amendments)
     print(printed)
     amend = BIN / "a351-correct", "amend", survey
-    refused("--finding = 99: no such finding", *amend, "--finding", "99")
+    refused("--finding = 99: no finding with a proposal; allowed: ", *amend, "--finding", "99")
     # The stay got another wrong name: the proposal of the right one contradicts this amendment.
     one = next(part for part in amendments.split("#") if "[[rename]]" in part)
     contradicting = re.sub(r'to = "[^"]*"', 'to = "P.3"', "#" + one)

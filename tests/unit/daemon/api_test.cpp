@@ -41,14 +41,16 @@ TEST_CASE("an occupation is started, set up again, renamed and stopped by POST")
     CHECK(page.recorder.log.size() == 9);
 }
 
-TEST_CASE("no stay begins while no samples come") {
+TEST_CASE("no stay and no set-up begins while no samples come") {
     Page page;
     page.status.last_sample = minute(60);
     page.status.now = minute(60) + 5 * config::kStaleAfter;
-    CHECK(is(page.ask(post("/api/occupation/start", R"({"site":"No.0"})"), 409), "/error",
-             R"("no samples have come since 2026-03-14T09:00:00Z, so a stay cannot begin now")"));
+    CHECK(is(
+        page.ask(post("/api/occupation/start", R"({"site":"No.0"})"), 409), "/error",
+        R"("no samples have come since 2026-03-14T09:00:00Z, so nothing can begin now: check the sensor's plug")"));
     const std::string earlier = R"({"site":"No.0","at":"2026-03-14T08:40:00Z"})";
     page.ask(post("/api/occupation/start", earlier));
+    page.ask(post("/api/occupation/setup", "{}"), 409);
     page.ask(post("/api/occupation/stop", "{}"));
     const std::string key = R"({"key":"20260314T084000Z"})";
     page.ask(post("/api/occupation/resume", key), 409);
@@ -207,6 +209,8 @@ TEST_CASE_METHOD(StayPage, "what was looked at is not shown again, also after a 
     CHECK(word() == "look");
     CHECK(is(signal(), "/sentence", R"("No.1 is 71.0 mGal off")"));
     CHECK(is(signal(), "/buttons", R"(["checked"])"));
+    CHECK(is(ask(get("/api/rows")), "/rows/2/text",
+             R"("a351ctl rename 20260314T081000Z SITE, or a351ctl checked")"));
     CHECK(level() == "warning");
     ask(post("/api/occupation/checked", R"({"code":"another","key":"20260314T081000Z"})"), 409);
     ask(post("/api/occupation/checked", R"({"code":"reference","key":"20260314T081000Z"})"));

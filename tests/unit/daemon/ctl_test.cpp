@@ -35,6 +35,10 @@ TEST_CASE("a stay is one row with its gravity") {
     CHECK(occupation_table({{"occupations", {stay}}}) ==
           "site  stay  start  end  gravity_mgal  u_mgal  key  operator  note\n"
           "No.1  1     a      c    980001.5      1.5     K    -         -\n");
+    stay["site"] = "\u7b51\u6ce2";  // Two characters of two columns.
+    CHECK(occupation_table({{"occupations", {stay}}})
+              .ends_with("\u7b51\u6ce2  1     a      c    "
+                         "980001.5      1.5     K    -         -\n"));
     stay["gravity"] = nullptr;
     CHECK(occupation_table({{"occupations", {stay}}}).find("a      c    -") != std::string::npos);
 }
@@ -77,6 +81,8 @@ TEST_CASE("an instant is read as RFC 3339, as a local time or as a time ago") {
         return instant ? to_rfc3339(*instant) : "none";
     };
     CHECK(read("2026-03-14T08:10:00+09:00") == "2026-03-13T23:10:00Z");
+    CHECK(read("00:05Z") == "2026-03-14T00:05:00Z");
+    CHECK(read("23:45:10Z") == "2026-03-13T23:45:10Z");
     CHECK(read("08:45") == "2026-03-13T23:45:00Z");
     CHECK(read("09:30:00") == "2026-03-14T00:30:00Z");
     CHECK(read("10:30") == "2026-03-14T01:30:00Z");  // a fast watch: the daemon refuses it

@@ -373,6 +373,17 @@ TEST_CASE_METHOD(Survey,
     CHECK(recorder.log.back().index == 35 * 60);
 }
 
+TEST_CASE_METHOD(Survey, "a further set-up without a sample does not keep a stay from its stop") {
+    recorder.last = minute(10);
+    REQUIRE(occupations.start("No.0", {}, {}).kind == Kind::done);
+    CHECK(occupations.stop({}, {}).kind == Kind::refused);
+    recorder.last = minute(20);
+    REQUIRE(occupations.setup({}).kind == Kind::done);
+    REQUIRE(occupations.stop({}, {}).kind == Kind::done);
+    REQUIRE(occupations.list().back().set_ups.size() == 1);
+    CHECK(occupations.list().back().set_ups.back().end == minute(20));
+}
+
 TEST_CASE_METHOD(Survey,
                  "stop and setup need a running occupation and a time after its last set-up") {
     CHECK(occupations.stop({}, minute(1)).kind == Kind::refused);

@@ -1,0 +1,28 @@
+#include "corrector/series/series_rows.hpp"
+
+#include <fmt/core.h>
+
+#include "corrector/model/whole_day_model.hpp"
+#include "protocol/core/input_error.hpp"
+
+namespace a351::corrector::series {
+
+void CheckedSeries::refuse(const std::string& trouble, const std::string& allowed) const {
+    throw InputError(fmt::format("{}: {}: {}; allowed: {}", origin, name, trouble, allowed));
+}
+
+void CheckedSeries::require_one_point() const {
+    for (const reading::SurveyRow& row : read.rows)
+        if (row.site != read.rows.front().site)
+            refuse(fmt::format("set-ups at {} and {}", read.rows.front().site, row.site),
+                   "one point");
+}
+
+void CheckedSeries::require_day() const {
+    const reading::DayRecord* const day = read.day ? &*read.day : nullptr;
+    if (const auto refusal =
+            model::day_refusal(read.rows, std::vector<bool>(read.rows.size(), true), day))
+        refuse(*refusal, "a record without this");
+}
+
+}  // namespace a351::corrector::series

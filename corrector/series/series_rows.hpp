@@ -1,0 +1,31 @@
+#pragma once
+/// @file
+/// What all series of set-ups at one point have in common: their rows and their refusals.
+
+#include <string>
+#include <string_view>
+
+#include "corrector/reading/occupation_rows.hpp"
+
+namespace a351::corrector::series {
+
+/// Returns true for a set-up that is used.
+[[nodiscard]] inline bool is_in_series(const reading::SurveyRow& row) {
+    return !row.is_flagged && !row.is_excluded;
+}
+
+/// A series that is checked.  Its refusals name it and the file or folder that it comes from.
+struct CheckedSeries {
+    std::string_view name;
+    const std::string& origin;
+    const reading::OccupationRows& read;
+
+    /// @throws InputError  always.
+    [[noreturn]] void refuse(const std::string& trouble, const std::string& allowed) const;
+    /// @throws InputError  set-ups at several sites.
+    void require_one_point() const;
+    /// @throws InputError  the whole-day model refuses the record.
+    void require_day() const;
+};
+
+}  // namespace a351::corrector::series
