@@ -103,13 +103,6 @@ private:
         return reading::amendment_head(kind, listed) + rest;
     }
 
-    static std::string rename(const SurveyRow& row, const std::string& to,
-                              const std::string& reason) {
-        return amendment("rename", row, false,
-                         fmt::format("to = {}\nreason = {}\n", text::toml_string(to),
-                                     text::toml_string(reason)));
-    }
-
     static std::string exclusion(const SurveyRow& row, bool has_set_up, const Mistake& mistake) {
         return amendment("exclude", row, has_set_up,
                          fmt::format("reason = \"off by {} mGal\"\n",
@@ -267,7 +260,7 @@ private:
         finding.other_site = other.site;
         finding.text = text::message("{} reads like {}, and {} like {}: the names were swapped",
                                      stay_name(row), other.site, stay_name(other), row.site);
-        finding.amendment = rename(row, other.site, "names swapped");
+        finding.amendment = reading::rename_amendment(row, other.site, "names swapped");
         return finding;
     }
 
@@ -291,7 +284,7 @@ private:
             finding.text += text::message("; if the name is right, the reference of {} is {}",
                                           row.site, off_by(-mistake.size_mgal, mistake.u_mgal));
         }
-        finding.amendment = rename(row, other.name, "reads like " + other.name);
+        finding.amendment = reading::rename_amendment(row, other.name, "reads like " + other.name);
         return finding;
     }
 

@@ -9,6 +9,7 @@
 #include "corrector/judgement/closure.hpp"
 #include "corrector/judgement/physical_doubt.hpp"
 #include "corrector/judgement/reading_name.hpp"
+#include "corrector/judgement/unlike_neighbours.hpp"
 #include "protocol/signal/distributions.hpp"
 #include "protocol/text/aligned_text.hpp"
 
@@ -119,8 +120,9 @@ void add_samples(ReadingGrade& reading, const model::CorrectedRow& row) {
 bool has_mistakes(const model::SurveyCorrection& result) {
     using Of = reading::FindingKind;
     return std::ranges::any_of(result.findings, [](const reading::Finding& finding) {
-        return finding.kind == Of::other_name || finding.kind == Of::reference ||
-               finding.kind == Of::step || finding.kind == Of::bad_reading;
+        return finding.code != kUnlikeNeighboursCode &&
+               (finding.kind == Of::other_name || finding.kind == Of::reference ||
+                finding.kind == Of::step || finding.kind == Of::bad_reading);
     });
 }
 

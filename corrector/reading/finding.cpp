@@ -39,6 +39,15 @@ std::string amendment_head(std::string_view kind, const ListedSetUp& listed) {
                        listed.set_up ? fmt::format("set_up = {}\n", *listed.set_up) : "");
 }
 
+std::string rename_amendment(const SetUp& set_up, const std::string& to,
+                             const std::string& reason) {
+    if (set_up.listed.site.empty()) return {};
+    ListedSetUp stay = set_up.listed;
+    stay.set_up.reset();
+    return amendment_head("rename", stay) +
+           fmt::format("to = {}\nreason = {}\n", text::toml_string(to), text::toml_string(reason));
+}
+
 nlohmann::ordered_json findings_json(const std::vector<Finding>& findings) {
     auto list = nlohmann::ordered_json::array();
     for (const Finding& finding : findings) {

@@ -91,6 +91,10 @@ void set_stay(Finding& finding, const SetUp& set_up, UtcTime time);
 /// set_up.
 [[nodiscard]] std::string amendment_head(std::string_view kind, const ListedSetUp& listed);
 
+/// Returns the amendment that renames the stay of a set-up; empty if it cannot be amended.
+[[nodiscard]] std::string rename_amendment(const SetUp& set_up, const std::string& to,
+                                           const std::string& reason);
+
 /// Returns an array with one object per finding, for result.json.  What does not apply is null.
 [[nodiscard]] nlohmann::ordered_json findings_json(const std::vector<Finding>& findings);
 
