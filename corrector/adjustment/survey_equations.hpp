@@ -16,7 +16,7 @@
 ///
 /// adjust() repeats the adjustment about the values of the round before until they stay.
 ///
-///     const SurveyEquations survey(rows, in_use, design, options);
+///     const SurveyEquations survey(rows, in_use, design, knowledge);
 ///     const AdjustedSurvey adjusted = adjust(survey);
 ///     adjusted.gravity(0);                                // of survey.stations()[0]
 ///

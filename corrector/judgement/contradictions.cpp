@@ -17,9 +17,8 @@ namespace {
 using reading::Finding;
 using reading::FindingKind;
 
-/// Placement that is assumed of a box, mGal, and its weight as a number of pairs of set-ups.
-/// Sources: the prior of whole_day::DayModel; four is a choice.
-constexpr double kUsualPlacement_mgal = 1.2, kUsualWeight = 4.0;
+/// Weight of the placement that is assumed of a box, as a number of pairs of set-ups: a choice.
+constexpr double kUsualWeight = 4.0;
 
 /// Least ratio of the contradictions that are added.
 struct Limit {
@@ -145,7 +144,8 @@ void add_references(std::vector<Contradiction>& all, const model::SurveyCorrecti
 double placement_without(const std::vector<Closure>& pairs, const Closure& judged,
                          const std::vector<model::CorrectedRow>& rows) {
     const reading::SurveyRow& stay = rows[judged.later].row;
-    double weight = kUsualWeight, sum = kUsualWeight * kUsualPlacement_mgal * kUsualPlacement_mgal;
+    const double usual_mgal = whole_day::kUsualPlacement_mgal.median;
+    double weight = kUsualWeight, sum = kUsualWeight * usual_mgal * usual_mgal;
     for (const Closure& pair : pairs) {
         const reading::SurveyRow& other = rows[pair.later].row;
         if (is_same_stay(other, stay)) continue;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "corrector/model/whole_day_model.hpp"
+#include "corrector/model/model.hpp"
 #include "protocol/linear_algebra/symmetric_eigen.hpp"
 #include "protocol/signal/distributions.hpp"
 #include "protocol/text/aligned_text.hpp"

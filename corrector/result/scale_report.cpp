@@ -2,7 +2,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "corrector/result/answer.hpp"
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/csv.hpp"
 #include "protocol/text/message.hpp"

@@ -58,9 +58,8 @@ const std::vector<UnitParameter>& unit_parameters() {
     return kList;
 }
 
-// adjust_day() lists the priors; corrector/methods.md gives their origin.
 DayPriors::Matrix DayPriors::factor_in(bool has_two_faces) const {
-    constexpr double kSecant = 2.0 * 300.0 / 980665.0;
+    constexpr double kSecant = 2.0 * 300.0 / kMilliGalPerStandardGravity;
     Matrix widened = factor;
     // The scale is the last term, so no other one is in its column.
     double& scale = widened(place_of(DayTerm::scale), place_of(DayTerm::scale));
@@ -68,6 +67,7 @@ DayPriors::Matrix DayPriors::factor_in(bool has_two_faces) const {
     return widened;
 }
 
+// adjust_day() lists the priors; corrector/methods.md gives their origin.
 DayPriors usual_day_priors() {
     constexpr double kDrift_mgal_per_h = 1.0, kBias_mgal_per_g = 300.0, kBiasFactor = 3.0;
     DayPriors priors;

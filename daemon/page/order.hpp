@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "daemon/survey/occupations.hpp"
-#include "protocol/core/units.hpp"
 #include "protocol/core/utc_time.hpp"
 #include "protocol/text/sites.hpp"
 

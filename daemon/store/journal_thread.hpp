@@ -17,7 +17,6 @@
 #include <string>
 #include <thread>
 
-#include "daemon/source/host_clock.hpp"
 #include "daemon/store/chunk_list.hpp"
 #include "daemon/store/progress.hpp"
 #include "daemon/store/space_reserve.hpp"

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "protocol/archive/archive_writer.hpp"
-#include "protocol/archive/sds.hpp"
 #include "protocol/files/file_bytes.hpp"
 #include "protocol/files/file_layer.hpp"
 
