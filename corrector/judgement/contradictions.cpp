@@ -50,39 +50,8 @@ text::Message off_reference(const reading::SurveyRow& row, double off_mgal) {
         row.site, row.occupation, size_of(off_mgal));
 }
 
-/// Returns the only stay that shows a step; null if there are more or none.
-///
-/// It is at a known station.  Others show it if they are at one, or at a station that was read before
-/// too.  A wrong name or reference of the only one explains as much as a step does.
-const reading::SurveyRow* only_witness(const model::SurveyCorrection& result, const Finding& step) {
-    const reading::SurveyRow* only = nullptr;
-    for (const model::CorrectedRow& row : result.rows) {
-        if (!step.time || row.row.time < *step.time) continue;
-        const bool was_read_before =
-            std::ranges::any_of(result.rows, [&](const model::CorrectedRow& other) {
-                return other.row.site == row.row.site && other.row.time < *step.time;
-            });
-        if (!row.row.reference && !was_read_before) continue;
-        if (!row.row.reference || (only != nullptr && !is_same_stay(*only, row.row)))
-            return nullptr;
-        only = &row.row;
-    }
-    return only;
-}
-
 void add_findings(std::vector<Contradiction>& all, const model::SurveyCorrection& result) {
     for (const Finding& finding : result.findings) {
-        if (finding.kind == FindingKind::step && finding.size_mgal) {
-            if (const auto* const row = only_witness(result, finding)) {
-                all.push_back(about(
-                    *row, "references",
-                    text::message("{} ({}) is {} mGal off: its name or its reference is wrong, "
-                                  "or the box was knocked before it; check the name, then "
-                                  "read another known benchmark",
-                                  row->site, row->occupation, size_of(*finding.size_mgal))));
-                continue;
-            }
-        }
         const bool is_of_reading =
             finding.kind == FindingKind::other_name || finding.kind == FindingKind::reference ||
             finding.kind == FindingKind::step || finding.kind == FindingKind::bad_reading ||

@@ -76,7 +76,8 @@ private:
 
     [[nodiscard]] bool is_one_stay(const Mistake& mistake) const {
         return std::ranges::all_of(mistake.readings, [&](std::size_t i) {
-            return rows_[i].occupation == first(mistake).occupation;
+            return rows_[i].site == first(mistake).site &&
+                   rows_[i].occupation == first(mistake).occupation;
         });
     }
 
@@ -155,31 +156,34 @@ private:
         std::size_t other = 0;  ///< The nearest reading beyond the step that shows it.
     };
 
-    /// Returns the only stay on one side of a step that shows it: all others there are of unknown
-    /// stations without a reading on the other side.
+    /// Returns the only stay on one side of a step that shows it, if it is at a known station: all
+    /// others there are of unknown stations without a reading elsewhere.
     [[nodiscard]] std::optional<LoneStay> lone_stay(const Mistake& step) const {
         const std::size_t from = step.readings.front();
         std::vector<std::size_t> sides[2];  // readings before and after it
         for (std::size_t i = 0; i < rows_.size(); ++i)
             if (choice_.accepted[i] && readings_[i].loop == readings_[from].loop)
                 sides[i < from ? 0 : 1].push_back(i);
-        const auto shows_it = [&](std::size_t i, const std::vector<std::size_t>& beyond) {
-            return choice_.in_use[i] || std::ranges::any_of(beyond, [&](std::size_t k) {
-                       return rows_[k].site == rows_[i].site;
-                   });
+        // Other loops tie a station too.
+        const auto shows_it = [&](std::size_t i, const std::vector<std::size_t>& own_side) {
+            if (choice_.in_use[i]) return true;
+            for (std::size_t k = 0; k < rows_.size(); ++k)
+                if (choice_.accepted[k] && rows_[k].site == rows_[i].site &&
+                    std::ranges::count(own_side, k) == 0)
+                    return true;
+            return false;
         };
         for (const bool is_after : {true, false}) {
             std::vector<std::size_t> own, beyond;
             for (const std::size_t i : sides[is_after])
-                if (shows_it(i, sides[!is_after])) own.push_back(i);
+                if (shows_it(i, sides[is_after])) own.push_back(i);
             for (const std::size_t i : sides[!is_after])
-                if (shows_it(i, sides[is_after])) beyond.push_back(i);
+                if (shows_it(i, sides[!is_after])) beyond.push_back(i);
             Mistake stay = step;
             stay.kind = adjustment::AlternativeKind::stay;
             stay.readings = own;
             if (!is_after) stay.size_mgal = -step.size_mgal;
-            if (!own.empty() && !beyond.empty() &&
-                rows_[own.front()].site == rows_[own.back()].site && is_one_stay(stay))
+            if (!own.empty() && !beyond.empty() && choice_.in_use[own.front()] && is_one_stay(stay))
                 return LoneStay{std::move(stay), is_after ? beyond.back() : beyond.front()};
         }
         return std::nullopt;
@@ -187,7 +191,11 @@ private:
 
     /// Says that a stay has a wrong name or is bad, or that the instrument stepped.
     [[nodiscard]] Finding stay_or_step(const Mistake& stay, std::size_t other) const {
-        const auto others = read_sites(stay);
+        // With the drift that a step may have hidden, u can reach the reference of any site.
+        constexpr double kClear_u = 10.0;
+        const auto others = std::abs(stay.size_mgal) < kClear_u * stay.u_mgal
+                                ? std::vector<Candidate>()
+                                : read_sites(stay);
         Finding finding = others.empty() ? finding_of(stay, FindingKind::bad_reading,
                                                       "stay_disagrees", first(stay))
                                          : other_name(stay, others);
@@ -199,6 +207,7 @@ private:
         }
         add_step(finding, std::min(other, stay.readings.back()),
                  std::max(other, stay.readings.front()));
+        finding.text += text::message("; another known benchmark shows which");
         return finding;
     }
 

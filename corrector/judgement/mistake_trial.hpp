@@ -41,9 +41,7 @@ struct Suspect {
     double cost = 0.0;            ///< Subtracted from the score: number of its class, unknown size.
     std::size_t sum = 0, other_sum = 0;  ///< Numbers of Sums of its readings.
 
-    [[nodiscard]] bool is_swap() const {
-        return mistake.kind == adjustment::AlternativeKind::swap;
-    }
+    [[nodiscard]] bool is_swap() const { return mistake.kind == adjustment::AlternativeKind::swap; }
 };
 
 /// Sums over groups of readings, each computed once for all suspects.

@@ -49,11 +49,14 @@ std::optional<reading::Finding> still_box(const std::vector<SurveyRow>& rows) {
 
 std::vector<reading::Finding> set_ups_not_lifted(const std::vector<SurveyRow>& rows) {
     std::vector<reading::Finding> findings;
-    for (std::size_t i = 1; i < rows.size(); ++i) {
-        const SurveyRow& row = rows[i];
-        if (row.site != rows[i - 1].site || row.occupation != rows[i - 1].occupation ||
-            row.is_excluded || has_moved(rows[i - 1], row, kSetUpLevel_deg))
-            continue;
+    const SurveyRow* before = nullptr;  // The used set-up before.
+    for (const SurveyRow& row : rows) {
+        if (row.is_excluded || row.is_flagged) continue;
+        const bool is_still = before != nullptr && before->site == row.site &&
+                              before->occupation == row.occupation &&
+                              !has_moved(*before, row, kSetUpLevel_deg);
+        before = &row;
+        if (!is_still) continue;
         reading::Finding& finding = findings.emplace_back(
             reading::Finding{.kind = reading::FindingKind::not_lifted, .code = "not_lifted"});
         set_stay(finding, row, row.start.value_or(row.time));

@@ -22,12 +22,12 @@ namespace a351::corrector::judgement {
 [[nodiscard]] std::optional<reading::Finding> still_box(
     const std::vector<reading::SurveyRow>& rows);
 
-/// Returns the remark not_lifted for each set-up of a stay that has the level of the one before within
+/// Returns the remark not_lifted for each used set-up of a stay that has the level of the used one before within
 /// 0.0003 deg and its norm within 10 mGal: the placement error of both is the same, and u is too small.
 /// The amendment excludes it.
 ///
 /// Reason for 0.0003 deg: on a simulated day the level of a box at rest changes by at most 0.00013 deg in
-/// ten minutes.  Set-ups levelled within 0.01 deg agree so well once in 3000 times.
+/// ten minutes.  Set-ups levelled with a scatter of 0.01 deg agree so well once in 4000 times.
 [[nodiscard]] std::vector<reading::Finding> set_ups_not_lifted(
     const std::vector<reading::SurveyRow>& rows);
 

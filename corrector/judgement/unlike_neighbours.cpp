@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "corrector/judgement/reading_name.hpp"
 #include "corrector/reduction/plate_and_pressure.hpp"
@@ -14,6 +13,8 @@ namespace a351::corrector::judgement {
 namespace {
 
 constexpr double kFar_mgal = 40.0, kFits_mgal = 20.0;
+/// Terrain that the plate leaves out, by the height above the neighbours.
+constexpr double kTerrain_mgal_per_m = 0.05;
 constexpr Metres kNear(20e3);
 constexpr std::size_t kFewestNeighbours = 4;
 constexpr MilliGal kGreatestU(10.0);
@@ -31,17 +32,27 @@ double anomaly_mgal(const text::Site& site, MilliGal gravity) {
         .value();
 }
 
-/// Returns an anomaly minus the median of the neighbours of a site; NaN with too few of them.
-double off_neighbours_mgal(const std::vector<Placed>& stations, const text::Site& site,
-                           double anomaly_mgal, const text::Site& without) {
-    constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-    std::vector<double> near;
-    for (const Placed& other : stations)
-        if (other.site != &without &&
-            text::distance(*other.site, site.latitude, site.longitude) < kNear)
-            near.push_back(other.anomaly_mgal);
-    return near.size() < kFewestNeighbours ? kUnknown
-                                           : anomaly_mgal - signal::median(std::move(near));
+/// How a gravity compares with those of the neighbours of a site.
+struct Compared {
+    double off_mgal = 0.0;      ///< 0 with too few neighbours.
+    double terrain_mgal = 0.0;  ///< What a summit or a valley can explain.
+};
+
+/// @param without  a station that is no neighbour.
+Compared compare(const std::vector<Placed>& stations, const text::Site& site, MilliGal gravity,
+                 const text::Site& without) {
+    std::vector<double> anomalies_mgal, heights_m;
+    for (const Placed& other : stations) {
+        if (other.site == &without ||
+            !(text::distance(*other.site, site.latitude, site.longitude) < kNear))
+            continue;
+        anomalies_mgal.push_back(other.anomaly_mgal);
+        heights_m.push_back(other.site->altitude.value());
+    }
+    if (anomalies_mgal.size() < kFewestNeighbours) return {};
+    const double above_m = site.altitude.value() - signal::median(std::move(heights_m));
+    return {anomaly_mgal(site, gravity) - signal::median(std::move(anomalies_mgal)),
+            kTerrain_mgal_per_m * std::abs(above_m)};
 }
 
 bool has_height(const text::Site& site) { return site.is_placed && site.has_altitude; }
@@ -62,33 +73,39 @@ std::vector<reading::Finding> unlike_neighbours(const model::SurveyCorrection& r
         if (site == nullptr || !has_height(*site) || station.reference ||
             station.u_gravity.value_or(MilliGal(0.0)) > kGreatestU)
             continue;
-        const double off_mgal =
-            off_neighbours_mgal(stations, *site, anomaly_mgal(*site, station.gravity), *site);
-        if (!(std::abs(off_mgal) > kFar_mgal)) continue;
+        const auto [off_mgal, terrain_mgal] = compare(stations, *site, station.gravity, *site);
+        if (std::abs(off_mgal) <= std::max(kFar_mgal, terrain_mgal)) continue;
         std::vector<std::string> fitting;
-        for (const text::Site& other : sites)
-            if (has_height(other) &&
-                std::ranges::find(result.stations, other.name, &model::StationValue::site) ==
-                    result.stations.end() &&
-                std::abs(off_neighbours_mgal(stations, other, anomaly_mgal(other, station.gravity),
-                                             *site)) < kFits_mgal)
-                fitting.push_back(other.name);
+        for (const text::Site& other : sites) {
+            if (!has_height(other) ||
+                std::ranges::count(result.stations, other.name, &model::StationValue::site) > 0)
+                continue;
+            const double off = compare(stations, other, station.gravity, *site).off_mgal;
+            if (off != 0.0 && std::abs(off) < kFits_mgal) fitting.push_back(other.name);
+        }
         const auto row = std::ranges::find_if(result.rows, [&](const model::CorrectedRow& one) {
-            return one.row.site == station.site;
+            return one.row.site == station.site && !one.row.is_excluded;
         });
+        if (row == result.rows.end()) continue;
         reading::Finding& finding = findings.emplace_back(reading::Finding{
             .kind = reading::FindingKind::other_name, .code = kUnlikeNeighboursCode});
         set_stay(finding, row->row, row->row.start.value_or(row->row.time));
         finding.size_mgal = off_mgal;
         finding.text = text::message(
             "{} is {} mGal from what its height suggests beside its neighbours: check its name, "
-            "position and height",
+            "position and height, if it is no summit or mine",
             stay_name(row->row), text::fixed(off_mgal, 0));
         if (fitting.size() != 1) continue;
         finding.other_site = fitting.front();
         finding.text += text::message("; it would fit {}", finding.other_site);
-        finding.amendment =
-            reading::rename_amendment(row->row, finding.other_site, "its height fits");
+        const reading::SurveyRow* before = nullptr;
+        for (const model::CorrectedRow& one : result.rows) {
+            if (one.row.site != station.site || one.row.is_excluded) continue;
+            if (before == nullptr || before->occupation != one.row.occupation)
+                finding.amendment +=
+                    reading::rename_amendment(one.row, finding.other_site, "its height fits");
+            before = &one.row;
+        }
     }
     return findings;
 }

@@ -132,8 +132,23 @@ std::vector<text::Message> temperature_warnings(const std::vector<SurveyRow>& ro
     return unless_many(std::move(warnings), rows.size());
 }
 
+/// Returns true for a table that is grouped by site: there the rows of a site are not in order of the
+/// others.
+bool are_by_site(const std::vector<SurveyRow>& rows) {
+    std::vector<const SurveyRow*> of_table;
+    for (const SurveyRow& row : rows) of_table.push_back(&row);
+    std::ranges::stable_sort(of_table, {}, &SurveyRow::table_row);
+    std::set<std::string> sites;
+    std::size_t groups = 0;
+    for (std::size_t k = 0; k < of_table.size(); ++k) {
+        sites.insert(of_table[k]->site);
+        if (k == 0 || of_table[k]->site != of_table[k - 1]->site) ++groups;
+    }
+    return groups == sites.size() && groups > 1 && groups < rows.size();
+}
+
 std::vector<text::Message> order_warnings(const std::vector<SurveyRow>& rows) {
-    constexpr std::chrono::hours kNear(8);
+    constexpr std::chrono::hours kNear(8), kHalfDay(12);
     constexpr std::chrono::days kOne(1);  // A difference of days holds any two times.
     const auto day = [](const SurveyRow& row) -> std::chrono::sys_days {
         return std::chrono::floor<std::chrono::days>(row.time);
@@ -142,8 +157,8 @@ std::vector<text::Message> order_warnings(const std::vector<SurveyRow>& rows) {
     std::map<std::string, const SurveyRow*> last;  // of each instrument
     for (const SurveyRow& row : rows) {
         const SurveyRow*& before = last[row.instrument];
-        if (before != nullptr && before->table_row > row.table_row &&
-            day(row) - day(*before) <= kOne && row.time - before->time < kOne)
+        if (before != nullptr && before->table_row > row.table_row && !are_by_site(rows) &&
+            day(row) - day(*before) <= kOne && row.time - before->time <= kHalfDay)
             warnings.push_back(text::message(
                 "{} ({}), {}, is earlier than {} ({}), {}, but below it in the table: check hours "
                 "and zone of both",

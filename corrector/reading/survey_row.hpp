@@ -177,8 +177,8 @@ void set_backward_rates(std::vector<SurveyRow>& rows);
 /// - each row that is more than 20 days from all others, as with a mistyped year or month;
 /// - each row whose temperature is more than 10 degC from the median, and 20 times as far as half of
 ///   the rows are, as with 0 for an empty cell;
-/// - each row less than a day after one that is below it in the table, as with the hours of a 12-hour
-///   clock; without one, the first row that comes less than 8 h after a row of its site and loop with a
+/// - each row at most 12 h after one that is below it in the table, as with the hours of a 12-hour clock,
+///   unless the table is grouped by site; without one, the first row that comes less than 8 h after a row of its site and loop with a
 ///   larger number.  After 8 h the numbers may begin anew: it is another day;
 /// - the sites whose reference is known to more than 1 mGal, as with microgals.  Reason: the worst
 ///   benchmarks of national nets are known to some tenths.

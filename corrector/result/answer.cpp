@@ -217,9 +217,8 @@ std::vector<std::string> notes(const model::SurveyCorrection& result,
         network != nullptr && network->scatters_less_than_stated() &&
         network->s0().value_or(1.0) < kMuchLess)
         list.push_back(
-            tr("The readings scatter {} times less than stated: are sd_mgal and "
-               "reading_sd_mgal in mGal?",
-               text::fixed(1.0 / *network->s0(), 0)));
+            tr("The readings scatter ten times less than stated, or still less: are sd_mgal and "
+               "reading_sd_mgal in mGal?"));
     std::vector<std::string> unchecked;
     for (const model::StationValue& station : result.stations)
         if (station.row_count == 1 && !station.reference) unchecked.push_back(station.site);

@@ -54,16 +54,18 @@ std::string network_text(const model::SurveyCorrection& result) {
         network.rows.size(), readings, held, deviations(network, readings, held),
         network.rows.size() - readings - held, network.unknown_count, network.dof);
     const std::string sd = deviations(network, 0, readings);
-    const bool is_one_sd = sd.find(" to ") == std::string::npos;
+    const bool have_own_sd = std::ranges::any_of(result.rows, [](const model::CorrectedRow& row) {
+        return row.row.u_average != MilliGal(0.0);
+    });
     if (const auto passes = network.passes_global_test()) {
         text += fmt::format("global test: v'Wv = {}, at most {}: {}; s0 = {} for readings{}\n",
                             text::fixed(network.weighted_square, 2),
                             text::fixed(network.chi_square_high, 2), *passes ? "passed" : "FAILED",
                             text::fixed(*network.s0(), 3), sd);
         const std::string scatter =
-            is_one_sd
-                ? fmt::format("agrees with reading_sd_mgal = {:.2g}", result.score.s_mgal.value())
-                : fmt::format("is {:.2g} times what they state", *network.s0());
+            have_own_sd
+                ? fmt::format("is {:.2g} times what they state", *network.s0())
+                : fmt::format("agrees with reading_sd_mgal = {:.2g}", result.score.s_mgal.value());
         if (!*passes)
             text +=
                 fmt::format("  the scatter of the readings {}; first look for a fault\n", scatter);
@@ -71,9 +73,9 @@ std::string network_text(const model::SurveyCorrection& result) {
             text += fmt::format(
                 "  the readings scatter less than stated (v'Wv below {}): their scatter {}\n",
                 text::fixed(network.chi_square_low, 2), scatter);
-        text += fmt::format(
-            "u of the stations above {}; stations.csv has both\n",
-            *passes ? "is a priori" : "is a posteriori, times s0, because the test failed");
+        if (!*passes)
+            text +=
+                "u in the first table is a posteriori, times s0; that of stations.csv a priori\n";
     }
     const ReferenceCheck check = check_references(result, network);
     if (check.rms_mgal) {

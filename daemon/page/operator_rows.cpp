@@ -50,7 +50,8 @@ std::string commands_of(const json& signal, const json& stay) {
     };
     // A reading that does not fit the others may have a wrong name.
     if (const std::string named = signal.at("look").at("key");
-        !named.empty() && signal.at("buttons") == json{"checked"})
+        !named.empty() && signal.at("buttons") == json{"checked"} &&
+        !signal.at("look").at("code").get<std::string>().starts_with("set_up"))
         add("rename " + named + " SITE");
     for (const json& button : signal.at("buttons")) add(commands.at(button));
     return text;

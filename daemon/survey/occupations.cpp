@@ -209,7 +209,8 @@ Outcome Occupations::stop(const Remark& remark, std::optional<UtcTime> at) {
     add(event, "site", running()->site);
     add(event, remark);
     auto message = text::message("stopped {} at {}", named(*running()), shown(utc));
-    if (const auto made = running()->set_ups.size(); static_cast<int>(made) < planned_set_ups()) {
+    const auto made = running()->set_ups.size() - (utc == running()->set_ups.back() ? 1U : 0U);
+    if (static_cast<int>(made) < planned_set_ups()) {
         message += text::message("; {} of {} planned set-ups", made, planned_set_ups());
     }
     const text::Message clock = remark_on_clock();

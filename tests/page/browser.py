@@ -91,7 +91,7 @@ class Browser:
     The next block of the process uses the same Chromium, because its start takes four seconds.
     """
 
-    idle = []  # The Chromiums of ended blocks.
+    idle = {}  # The Chromiums of ended blocks, by their rules.
 
     def __init__(self, allowed_errors=(), may_ask=(), rules="MAP * ~NOTFOUND, EXCLUDE 127.0.0.1", language="en"):
         """@param allowed_errors  parts of console messages that the test provokes
@@ -100,7 +100,8 @@ class Browser:
         @param language  language that the browser asks for
         """
         self.allowed_errors, self.may_ask = allowed_errors, {"127.0.0.1", *may_ask}
-        self.driver = self.idle.pop() if self.idle else self.start(rules)
+        self.rules = rules
+        self.driver = self.idle.pop(rules, None) or self.start(rules)
         self.set_language(language)
         self.set_zone("UTC")
         self.seen = []  # Console messages so far.
@@ -132,7 +133,7 @@ class Browser:
         if kind is None:
             self.demand_quiet()
             self.driver.get("about:blank")
-            self.idle.append(self.driver)
+            self.idle[self.rules] = self.driver
         elif kind is not SystemExit or value.code != 0:
             self.shot("failed")
             print("console:", self.console())

@@ -136,30 +136,3 @@ TEST_CASE("a mistake of the search is a contradiction, and its reading is named 
     CHECK(all[1].site == "B");
     CHECK(all[2].site == "C");
 }
-
-TEST_CASE("a step that one known reading shows may be a wrong name as well") {
-    SurveyCorrection result = day({"A", "B", "C", "D"}, 0.0);
-    result.findings = {{.kind = corrector::reading::FindingKind::step,
-                        .code = "step",
-                        .time = result.rows[3].row.time - std::chrono::minutes(5),
-                        .size_mgal = -40.2,
-                        .text = "the instrument stepped"}};
-    const auto names_step = [&] {
-        return said(result).find("the instrument stepped") != std::string::npos;
-    };
-    CHECK(said(result) ==
-          "K3 D (1) is 40.2 mGal off: its name or its reference is wrong, or the box was knocked "
-          "before it; check the name, then read another known benchmark|");
-    // A return to an unknown station shows it too.
-    result.rows[1].row.reference.reset();
-    result.rows.push_back(result.rows[1]);
-    result.rows.back().row.time = result.rows[3].row.time + std::chrono::minutes(30);
-    result.rows.back().row.occupation = 2;
-    CHECK(names_step());
-    result.rows.pop_back();
-    CHECK_FALSE(names_step());
-    result.findings[0].time = result.rows[2].row.time - std::chrono::minutes(5);
-    CHECK(names_step());
-    for (CorrectedRow& row : result.rows) row.row.key.clear();  // as in a list of occupations
-    CHECK(names_step());
-}

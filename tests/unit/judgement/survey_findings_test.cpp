@@ -139,6 +139,9 @@ TEST_CASE("a set-up of a box that was not lifted is named, with its exclusion") 
         "was not averaged and u is too small");
     CHECK(found[0].amendment ==
           "[[exclude]]\nsite = \"A\"\noccupation = 1\nset_up = 2\nreason = \"box not lifted\"\n");
+    rows[0].is_excluded = true;
+    CHECK(judgement::set_ups_not_lifted(rows).empty());
+    rows[0].is_excluded = false;
     rows[1].occupation = 2;
     CHECK(judgement::set_ups_not_lifted(rows).empty());  // It came back.
 }
@@ -221,20 +224,29 @@ TEST_CASE("a step that one stay alone shows may be a wrong name of this stay") {
     CHECK(
         name.text ==
         "B (2) is 89.0 +- 2.0 mGal too high; it reads like A (1.0 mGal); or the instrument stepped "
-        "between B (1) and B (2)");
+        "between B (1) and B (2); another known benchmark shows which");
     CHECK(name.kind == FindingKind::other_name);
     CHECK(name.amendment.starts_with("[[rename]]\nsite = \"B\"\noccupation = 2\nto = \"A\"\n"));
     const Finding bad = finding_of(4, 60.0);
     CHECK(bad.text ==
           "B (2) is 60.0 +- 2.0 mGal too high: its name or its reference is wrong, or the stay is "
-          "bad; or the instrument stepped between B (1) and B (2)");
+          "bad; or the instrument stepped between B (1) and B (2); another known benchmark shows "
+          "which");
     CHECK(bad.amendment.starts_with("[[exclude]]\nsite = \"B\"\noccupation = 2\n"));
     const Finding early = finding_of(1, 90.0);  // Only A is before it.
     CHECK(early.text.english().starts_with("A (1) is 90.0 +- 2.0 mGal too low: "));
-    CHECK(early.text.english().ends_with("the instrument stepped between A (1) and B (1)"));
-    rows[1].site = readings[1].site = "E";  // A second station that is read on both sides.
-    rows[1].reference.reset();
-    CHECK(finding_of(2, 89.0).kind == FindingKind::step);
+    CHECK(early.text.english().find("the instrument stepped between A (1) and B (1)") !=
+          std::string::npos);
+    // With a large u any site is within reach.
+    CHECK(finding_of(2, 19.0).amendment.starts_with("[[exclude]]"));
+    // A second station that is read before it, in this loop or in another one, shows the step too.
+    rows.insert(rows.begin(), reading::SurveyRow(rows[4]));
+    readings.insert(readings.begin(), judgement::SearchedReading(readings[4]));
+    CHECK(finding_of(3, 89.0).kind == FindingKind::step);
+    readings[0].loop = 1;
+    CHECK(finding_of(3, 89.0).kind == FindingKind::step);
+    rows[0].site = readings[0].site = "F";
+    CHECK(finding_of(3, 89.0).kind == FindingKind::other_name);
 }
 
 TEST_CASE("a bad reading of a station with others is to be repeated") {

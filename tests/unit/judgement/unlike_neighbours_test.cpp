@@ -47,9 +47,22 @@ TEST_CASE("a measured gravity that does not fit the height of its station is nam
     REQUIRE(found.size() == 1);
     CHECK(found[0].text.english() ==
           "B (1) is -81 mGal from what its height suggests beside its neighbours: check its name, "
-          "position and height; it would fit H");
+          "position and height, if it is no summit or mine; it would fit H");
     CHECK(found[0].amendment ==
           "[[rename]]\nsite = \"B\"\noccupation = 1\nto = \"H\"\nreason = \"its height fits\"\n");
+    SECTION("a second stay is renamed too") {
+        survey.result.rows.push_back(survey.result.rows[1]);
+        survey.result.rows.back().row.occupation = 2;
+        survey.result.rows.back().row.listed = {"B", 2, 1};
+        CHECK(survey.findings()[0].amendment.find("occupation = 2") != std::string::npos);
+    }
+    SECTION("a summit") {
+        survey.sites[1].altitude = Metres(2600.0);  // 2000 m above the others: 100 mGal
+        survey.result.stations[1].gravity = MilliGal(980000.0 - 0.197 * 2600.0 - 90.0);
+        CHECK(survey.findings().empty());
+        survey.result.stations[1].gravity = MilliGal(980000.0 - 0.197 * 2600.0 - 110.0);
+        CHECK(survey.findings().size() == 1);
+    }
     SECTION("two sites fit") {
         survey.sites.push_back(survey.place("I", 600.0));
         CHECK(survey.findings()[0].other_site.empty());

@@ -146,6 +146,14 @@ TEST_CASE("a temperature far from the others and an earlier stay with a later nu
           std::vector<std::string>{"A (4), 2020-03-01T12:00:00Z, is earlier than A (3), "
                                    "2020-03-01T23:00:00Z, but below it in the table: check hours "
                                    "and zone of both"});
+    // A table grouped by site is in another order.
+    CHECK(text::in_english(
+              row_warnings(TableFile(kTableHeader + "A,1,0,2020-03-01T00:00:00Z,0,981700,42.5\n"
+                                                    "A,2,0,2020-03-01T05:00:00Z,0,981700,42.5\n"
+                                                    "B,1,0,2020-03-01T01:00:00Z,0,981700,42.5\n"
+                                                    "B,2,0,2020-03-01T04:00:00Z,0,981700,42.5\n")
+                               .read()))
+              .empty());
     std::vector<SurveyRow> backwards(3);
     for (std::size_t i = 0; i < 3; ++i) {
         backwards[i].time = UtcTime(std::chrono::hours(i));
