@@ -313,9 +313,8 @@ private:
         Finding finding = finding_of(mistake, FindingKind::reference, "references_contradict", row);
         finding.other_site = rival;
         finding.text = text::message(
-            "the references of {} and {} contradict each other by {} +- {} mGal, or a stay there "
-            "is "
-            "bad; nothing shows which",
+            "the references of {} and {} contradict each other by {} +- {} mGal, or a stay "
+            "there is bad; nothing shows which",
             row.site, rival, in_mgal(std::abs(mistake.size_mgal), mistake.u_mgal),
             in_mgal(mistake.u_mgal, mistake.u_mgal));
         return finding;

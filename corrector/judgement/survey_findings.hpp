@@ -50,8 +50,8 @@ struct SearchedSurvey {
 /// five errors is known to a third, that of two to a half.
 inline constexpr std::size_t kFewestLeftOut = 5;
 
-/// Returns left_out - reference of each station whose reference the fit uses and that can be left out,
-/// mGal: errors as of new stations.
+/// Returns left_out - reference of each station whose reference the fit uses and that can be left
+/// out, mGal: errors as of new stations.
 [[nodiscard]] std::vector<double> new_station_errors_mgal(const model::SurveyCorrection& result);
 
 }  // namespace a351::corrector::judgement

@@ -154,10 +154,11 @@ std::vector<text::Message> order_warnings(const std::vector<SurveyRow>& rows) {
         return std::chrono::floor<std::chrono::days>(row.time);
     };
     std::vector<text::Message> warnings;
+    const bool is_by_site = are_by_site(rows);
     std::map<std::string, const SurveyRow*> last;  // of each instrument
     for (const SurveyRow& row : rows) {
         const SurveyRow*& before = last[row.instrument];
-        if (before != nullptr && before->table_row > row.table_row && !are_by_site(rows) &&
+        if (before != nullptr && before->table_row > row.table_row && !is_by_site &&
             day(row) - day(*before) <= kOne && row.time - before->time <= kHalfDay)
             warnings.push_back(text::message(
                 "{} ({}), {}, is earlier than {} ({}), {}, but below it in the table: check hours "

@@ -25,8 +25,7 @@ text::Message text_of(const MovePrompt& prompt) {
     return prompt.is_set_up
                ? text::message(
                      "the box was lifted and set down at {}: begin the next set-up at that time, "
-                     "or "
-                     "say that it was not moved",
+                     "or say that it was not moved",
                      time)
                : text::message(
                      "the box was moved at {}: stop at that time, or say that it was not moved",
