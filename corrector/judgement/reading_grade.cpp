@@ -130,8 +130,8 @@ bool has_mistakes(const model::SurveyCorrection& result) {
 struct ReadingScatter {
     text::Message name;
     double mgal = 0.0;
-    double of_stated =
-        0.0;  ///< The scatter divided by that stated; 0: readings have none of their own.
+    /// The scatter divided by that stated; 0: readings have none of their own.
+    double of_stated = 0.0;
 
     [[nodiscard]] double of(const model::CorrectedRow& row) const {
         return std::hypot(mgal, of_stated * row.row.u_average.value());

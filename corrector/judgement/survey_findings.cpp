@@ -216,14 +216,13 @@ Search search(const model::SurveyCorrection& result, const SearchedSurvey& surve
     }
     auto useless = still_box(survey.rows);
     if (!useless) useless = unusable(result, amended_loso_mgal);
-    const bool has_useless = useless.has_value();
+    if (!right && !useless)
+        for (Finding& finding : unlike_neighbours(result, survey.sites))
+            findings.push_back(std::move(finding));
     if (useless) findings.insert(findings.begin(), std::move(*useless));
     if (auto finding = far_bias(result.rows)) findings.push_back(std::move(*finding));
     // A mistake that was found is a misfit of its own.
     if (!right) say_misfits(result, findings);
-    if (!right && !has_useless)
-        for (Finding& finding : unlike_neighbours(result, survey.sites))
-            findings.push_back(std::move(finding));
     for (Finding& remark : set_ups_not_lifted(survey.rows)) findings.push_back(std::move(remark));
     for (Finding& remark : survey_remarks(result, survey.rows, survey.sites))
         findings.push_back(std::move(remark));

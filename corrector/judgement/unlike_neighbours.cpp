@@ -13,7 +13,7 @@ namespace a351::corrector::judgement {
 namespace {
 
 constexpr double kFar_mgal = 40.0, kFits_mgal = 20.0;
-/// Terrain that the plate leaves out, by the height above the neighbours.
+/// Excess of the plate over a cone of rock at its top, 2 pi G rho sin(slope), for slopes of 27 deg.
 constexpr double kTerrain_mgal_per_m = 0.05;
 constexpr Metres kNear(20e3);
 constexpr std::size_t kFewestNeighbours = 4;
@@ -35,7 +35,7 @@ double anomaly_mgal(const text::Site& site, MilliGal gravity) {
 /// How a gravity compares with those of the neighbours of a site.
 struct Compared {
     double off_mgal = 0.0;      ///< 0 with too few neighbours.
-    double terrain_mgal = 0.0;  ///< What a summit or a valley can explain.
+    double terrain_mgal = 0.0;  ///< Difference that a summit or a valley explains.
 };
 
 /// @param without  a station that is no neighbour.

@@ -22,10 +22,9 @@ inline constexpr const char* kUnlikeNeighboursCode = "unlike_neighbours";
 /// that was not visited fits within 20 mGal, its name is proposed.  In a mine, where the plate is
 /// above, a true value can be named.
 ///
-/// Reason for 40 mGal: of 29 stations in plains and mountains of North China (tests/golden/igp) the
-/// farthest is off by 23 mGal, of 14 of the publication the summit, by 24.  100 m of height are 20
-/// mGal.  Reason for 0.05 mGal/m: a cone of rock 3000 m high, 15 km in radius, leaves 52 mGal at
-/// its summit.
+/// Reason for 40 mGal: 100 m of height are 20 mGal, and no station of the publication or of a campaign
+/// in North China is named (unlike_neighbours_test.cpp, igp_network_test.cpp).  Reason for 0.05
+/// mGal/m: at the top of a cone of rock with slopes of 27 deg a plate attracts so much more.
 /// @param sites  with the positions of the stations; those without height are not compared.
 [[nodiscard]] std::vector<reading::Finding> unlike_neighbours(const model::SurveyCorrection& result,
                                                               const std::vector<text::Site>& sites);

@@ -179,7 +179,7 @@ void set_backward_rates(std::vector<SurveyRow>& rows);
 ///   the rows are, as with 0 for an empty cell;
 /// - each row at most 12 h after one that is below it in the table, as with the hours of a 12-hour clock,
 ///   unless the table is grouped by site; without one, the first row that comes less than 8 h after a row of its site and loop with a
-///   larger number.  After 8 h the numbers may begin anew: it is another day;
+///   larger number.  After 8 h it is another day, whose numbers begin with 1;
 /// - the sites whose reference is known to more than 1 mGal, as with microgals.  Reason: the worst
 ///   benchmarks of national nets are known to some tenths.
 ///

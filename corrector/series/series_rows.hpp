@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What all series of set-ups at one point have in common: their rows and their refusals.
+/// The rows and the refusals of all series of set-ups at one point.
 
 #include <string>
 #include <string_view>

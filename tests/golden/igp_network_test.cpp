@@ -9,6 +9,7 @@
 
 #include "corrector/gravimeter/gravimeter_file.hpp"
 #include "corrector/judgement/survey_findings.hpp"
+#include "corrector/judgement/unlike_neighbours.hpp"
 #include "corrector/tide/tide_choice.hpp"
 #include "protocol/text/doubtful_site.hpp"
 
@@ -105,6 +106,14 @@ TEST_CASE("a campaign of 112 stations agrees with the solution published with it
     CHECK(network->passes_global_test().value());
     CHECK(network->s0().value() == Approx(0.98).margin(0.01));
 
+    auto places = sites();
+    CHECK(judgement::unlike_neighbours(result, places).empty());
+    auto& lowered = *std::ranges::find(places, "11002800", &text::Site::name);
+    lowered.altitude = lowered.altitude - Metres(200.0);
+    const auto unlike = judgement::unlike_neighbours(result, places);
+    REQUIRE(unlike.size() == 1);
+    CHECK(unlike[0].site == lowered.name);
+
     std::ifstream in(A351_GOLDEN "/igp/grav_baj.txt");
     const auto published = nlohmann::json::parse(in);
     std::map<std::string, double> theirs;
@@ -132,10 +141,12 @@ TEST_CASE("a campaign of 112 stations agrees with the solution published with it
 TEST_CASE("the scales of the two meters come out as published, with the usual prior") {
     model::SurveyOptions options;
     options.priors.reading_sd_mgal = kReadingSd_mgal;
-    const auto result = judgement::correct_and_search(
-        {rows({"11014121", "13072402", "10114700"}, {{"QSCW201508p.098", 1.0}, {"QSCW201508p.099", 1.0}}),
-         {}, nullptr},
-        options);
+    const auto result =
+        judgement::correct_and_search({rows({"11014121", "13072402", "10114700"},
+                                            {{"QSCW201508p.098", 1.0}, {"QSCW201508p.099", 1.0}}),
+                                       {},
+                                       nullptr},
+                                      options);
     REQUIRE(result.scales.size() == 2);
     for (const model::ScaleEstimate& scale : result.scales) {
         const double published = 1.0 / kScales.at("QSCW201508p." + scale.instrument.substr(1));

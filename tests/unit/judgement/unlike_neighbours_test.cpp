@@ -2,6 +2,8 @@
 
 #include "tests/support/catch.hpp"
 
+#include <algorithm>
+
 using namespace a351;
 using namespace a351::corrector;
 
@@ -83,4 +85,22 @@ TEST_CASE("a measured gravity that does not fit the height of its station is nam
         for (std::size_t i = 2; i < 6; ++i) survey.sites[i].longitude = Degrees(141.0);
         CHECK(survey.findings().empty());
     }
+}
+
+TEST_CASE("no station of the publication is unlike its neighbours, also not the summit") {
+    std::vector<text::Site> sites = text::read_sites(A351_GOLDEN "/tsukuba/sites.csv");
+    model::SurveyCorrection result;
+    for (const text::Site& site : sites) {
+        result.stations.emplace_back().site = site.name;
+        result.stations.back().gravity = *site.gravity;
+        result.rows.emplace_back().row.site = site.name;
+    }
+    REQUIRE(sites.size() == 14);
+    CHECK(judgement::unlike_neighbours(result, sites).empty());
+    const auto summit = std::ranges::find(sites, "No.12", &text::Site::name);
+    summit->altitude =
+        summit->altitude - Metres(150.0);  // 30 mGal less, beside the 24 of its terrain
+    const auto found = judgement::unlike_neighbours(result, sites);
+    REQUIRE(found.size() == 1);
+    CHECK(found[0].site == "No.12");
 }
