@@ -97,8 +97,8 @@ void correct_table(TableOptions options) {
     sources.warnings = reading::position_warnings(rows, sites);
     const std::vector<text::Message> far = reading::row_warnings(rows);
     sources.warnings.insert(sources.warnings.end(), far.begin(), far.end());
-    if (auto doubt = tide::doubtful_tide(rows, sites, survey.tide); !doubt.empty())
-        sources.warnings.push_back(std::move(doubt));
+    for (text::Message& warning : tide::tide_warnings(rows, sites, survey.tide))
+        sources.warnings.push_back(std::move(warning));
     sources.warnings.insert(sources.warnings.end(), reduced.begin(), reduced.end());
     sources.figures = options.figures;
     nlohmann::ordered_json settings;

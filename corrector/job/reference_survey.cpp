@@ -57,8 +57,8 @@ ReferenceNetwork hold_reference_values(const SurveyFile& survey, reading::Occupa
         tide::set_tide_system(tide, system, origin + ": tide_system of the survey");
     }
     tide::apply_tide(rows, read.sites, tide);
-    if (auto doubt = tide::doubtful_tide(rows, read.sites, tide); !doubt.empty())
-        read.warnings.push_back(origin + ": " + doubt);
+    for (const text::Message& warning : tide::tide_warnings(rows, read.sites, tide))
+        read.warnings.push_back(origin + ": " + warning);
     reduction::ReductionChoice reduction = survey.reduction;
     reduction.height.reset();  // that of the sensor
     const std::vector<text::Message> reduced = reduction::reduce_rows(

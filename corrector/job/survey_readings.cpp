@@ -54,8 +54,8 @@ reading::OccupationRows read_survey(const SurveyFile& survey,
     reading::OccupationRows read = reading::average_occupations(source, stays, progress);
     read.warnings.insert(read.warnings.begin(), warnings.begin(), warnings.end());
     tide::apply_tide(read.rows, read.sites, survey.tide, read.day ? &*read.day : nullptr);
-    if (auto doubt = tide::doubtful_tide(read.rows, read.sites, survey.tide); !doubt.empty())
-        read.warnings.push_back(std::move(doubt));
+    for (text::Message& warning : tide::tide_warnings(read.rows, read.sites, survey.tide))
+        read.warnings.push_back(std::move(warning));
     const std::vector<text::Message> reduced =
         reduction::reduce_rows(read.rows, read.sites, reduction::read_gradients(survey.sites),
                                survey.reduction, read.day ? &*read.day : nullptr);

@@ -79,11 +79,13 @@ void say_misfits(const model::SurveyCorrection& result, std::vector<Finding>& fi
         if (test.is_misfit()) findings.push_back(misfit(test, result.rows[test.place].row));
 }
 
-/// Returns the place of a finding in the list: headlines, mistakes, remarks, what was not visited.
+/// Returns the place of a finding in the list: an unusable day, other headlines, mistakes, remarks,
+/// what was not visited.
 int rank_of(const Finding& finding) {
-    if (finding.is_headline) return 0;
-    if (!reading::is_remark(finding)) return 1;
-    return finding.kind == FindingKind::not_visited ? 3 : 2;
+    if (finding.kind == FindingKind::unusable_day) return 0;
+    if (finding.is_headline) return 1;
+    if (!reading::is_remark(finding)) return 2;
+    return finding.kind == FindingKind::not_visited ? 4 : 3;
 }
 
 /// Returns the rms uncertainty of the references.
@@ -219,7 +221,7 @@ Search search(const model::SurveyCorrection& result, const SearchedSurvey& surve
     if (!right && !useless)
         for (Finding& finding : unlike_neighbours(result, survey.sites))
             findings.push_back(std::move(finding));
-    if (useless) findings.insert(findings.begin(), std::move(*useless));
+    if (useless) findings.push_back(std::move(*useless));
     if (auto finding = far_bias(result.rows)) findings.push_back(std::move(*finding));
     // A mistake that was found is a misfit of its own.
     if (!right) say_misfits(result, findings);
@@ -229,6 +231,48 @@ Search search(const model::SurveyCorrection& result, const SearchedSurvey& surve
     say_far_terms(found, model, survey, result, far, given);
     std::ranges::stable_sort(found.findings, {}, rank_of);
     return found;
+}
+
+/// Returns how many mistakes a list of findings has, a swap of names twice.
+std::ptrdiff_t count_mistakes(const std::vector<Finding>& findings) {
+    return std::ranges::count_if(findings, [](const Finding& finding) {
+        return finding.kind == FindingKind::other_name || finding.kind == FindingKind::reference ||
+               finding.kind == FindingKind::step || finding.kind == FindingKind::bad_reading;
+    });
+}
+
+/// Says that a drift of a higher degree in each loop leaves at least three mistakes fewer, if so.
+/// Its terms are more than those of the mistakes, so it proves nothing: s0 of both fits is given.
+/// @param right  the survey with the mistakes put right.
+std::optional<Finding> curved_drift(const model::SurveyCorrection& result,
+                                    const SearchedSurvey& survey,
+                                    const model::AmendedSurvey& right) {
+    constexpr std::ptrdiff_t kFewestLess = 3;
+    const std::ptrdiff_t mistakes = count_mistakes(result.findings);
+    if (result.as<model::NetworkPart>() == nullptr || mistakes < kFewestLess) return std::nullopt;
+    const auto corrected = [&](const std::vector<SurveyRow>& rows, model::SurveyOptions options) {
+        options.model = result.model;
+        return model::correct_survey(rows, options, survey.day);
+    };
+    const auto s0_of = [](const model::SurveyCorrection& fit) {
+        return text::fixed_or(fit.as<model::NetworkPart>()->s0(), 2, "-");
+    };
+    model::SurveyOptions options = result.options;
+    for (int& degree = ++options.network.drift_degree; degree <= model::kGreatestDriftDegree;
+         ++degree) {
+        const model::SurveyCorrection curved = corrected(survey.rows, options);
+        const std::ptrdiff_t left = count_mistakes(find_mistakes(curved, survey));
+        if (mistakes - left < kFewestLess) continue;
+        return Finding{
+            .kind = FindingKind::misfit,
+            .code = "misfit_drift",
+            .text = text::message(
+                "a drift of degree {} in each loop leaves {} of these {} mistakes, and s0 is {}; "
+                "with the mistakes put right it is {}: the drift may be curved",
+                degree, left, mistakes, s0_of(curved),
+                s0_of(corrected(right.rows, right.options)))};
+    }
+    return std::nullopt;
 }
 
 /// Returns the model that `auto` chooses without the mistakes; `present` if there is none.
@@ -316,6 +360,11 @@ model::SurveyCorrection correct_and_search(const SearchedSurvey& survey,
         }
     }
     result.findings = std::move(found.findings);
+    if (found.amended)
+        if (auto finding = curved_drift(result, survey, *found.amended)) {
+            result.findings.push_back(std::move(*finding));
+            std::ranges::stable_sort(result.findings, {}, rank_of);
+        }
     for (model::CorrectedRow& row : result.rows) row.doubt_physical = physical_doubt(row.row);
     return result;
 }

@@ -27,6 +27,7 @@ using archive_series::Epoch, archive_series::kOuter, archive_series::kTemperatur
     archive_series::kVertical, archive_series::kWrongProfile, archive_series::last_sample;
 using Samples = std::vector<archive::ChannelData>;
 
+constexpr const char* kNoSamples = text::marked("no samples");
 constexpr std::chrono::minutes kMargin(1);   // reach of the temperature's filters, 9 s, and more
 constexpr std::chrono::hours kBefore(8);     // memory of the slowest response to temperature
 constexpr std::chrono::hours kOuterLead(1);  // an earlier gap of the outer oven has little effect
@@ -128,7 +129,7 @@ AveragedSetUp average(const Samples& samples, const Epoch& epoch,
     AveragedSetUp set_up{window};
     auto record = cut_occupation(samples, epoch, window.start, window.end);
     if (!record) {
-        set_up.trouble = text::marked("no samples");
+        set_up.trouble = kNoSamples;
         return set_up;
     }
     DecimatedAxes axes = decimate_axes(*record);
@@ -299,6 +300,10 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
     const std::vector<OccupationWindow> averaged =
         add_rows(result, set_ups, windows, stays, source.is_tumbled);
     if (result.rows.empty()) refuse_all(source, set_ups, result.warnings, absent);
+    const auto without_samples = std::ranges::count(set_ups, kNoSamples, &AveragedSetUp::trouble);
+    auto finding =
+        mostly_without_samples(static_cast<std::size_t>(without_samples), set_ups.size());
+    if (finding && !source.is_so_far) result.findings.push_back(std::move(*finding));
     for (Finding& remark : stay_remarks(averaged, samples[kVertical]))
         result.findings.push_back(std::move(remark));
     result.findings.insert(result.findings.end(), findings.begin(), findings.end());

@@ -140,6 +140,16 @@ std::vector<Finding> stay_remarks(const std::vector<OccupationWindow>& windows,
     return findings;
 }
 
+std::optional<Finding> mostly_without_samples(std::size_t without_samples, std::size_t set_ups) {
+    if (2 * without_samples <= set_ups) return std::nullopt;
+    return Finding{.kind = FindingKind::unusable_day,
+                   .code = "without_samples",
+                   .text = text::message("{} of {} set-ups have no samples: check when the sensor "
+                                         "recorded, and date, hour and zone of the stays",
+                                         without_samples, set_ups),
+                   .is_headline = true};
+}
+
 std::optional<Finding> other_face(const OccupationWindow& window, int face) {
     const auto expected = window.face.expected();
     if (!expected || *expected == face) return std::nullopt;

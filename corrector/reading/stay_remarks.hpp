@@ -23,6 +23,11 @@ namespace a351::corrector::reading {
 [[nodiscard]] std::vector<Finding> stay_remarks(const std::vector<OccupationWindow>& windows,
                                                 const archive::ChannelData& axis);
 
+/// Returns the finding unusable_day if more than half of the set-ups have no samples: either the
+/// sensor was not recorded, or the times of the list are wrong, as those of another zone are.
+[[nodiscard]] std::optional<Finding> mostly_without_samples(std::size_t without_samples,
+                                                            std::size_t set_ups);
+
 /// Returns the finding turned if a set-up is in another face than entered or planned.  It does not change
 /// the reading: the data decide.
 [[nodiscard]] std::optional<Finding> other_face(const OccupationWindow& window, int face);

@@ -39,6 +39,8 @@ struct Station {
 struct Factors {
     double delta2 = 1.16;  ///< Wahr-Dehant-Zschau model, rounded; 1.20 was usual in Japan.
     double delta3 = 1.07;  ///< Same for degree 3.
+
+    bool operator==(const Factors&) const = default;
 };
 
 /// Factors of a rigid Earth, without unit, for comparison with catalogues: attraction only.

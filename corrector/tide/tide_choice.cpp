@@ -141,9 +141,16 @@ void apply_tide(std::vector<reading::SurveyRow>& rows, const std::vector<text::S
     }
 }
 
-text::Message doubtful_tide(const std::vector<reading::SurveyRow>& rows,
-                            const std::vector<text::Site>& sites, const Choice& choice) {
-    if (is_computed(choice) || choice.source == "none") return {};
+std::vector<text::Message> tide_warnings(const std::vector<reading::SurveyRow>& rows,
+                                         const std::vector<text::Site>& sites,
+                                         const Choice& choice) {
+    if (is_computed(choice)) return {};
+    std::vector<text::Message> warnings;
+    if (choice.factors != Factors{})
+        warnings.push_back(
+            text::message("the tide is {}: delta2 and delta3 have an effect only on a computed one",
+                          choice.source));
+    if (choice.source == "none") return warnings;
     std::vector<UsedTide> tides;
     std::vector<const reading::SurveyRow*> row_of;
     for (const reading::SurveyRow& row : rows) {
@@ -154,19 +161,22 @@ text::Message doubtful_tide(const std::vector<reading::SurveyRow>& rows,
         row_of.push_back(&row);
     }
     const auto doubt = find_doubt(tides, kTideOfAnyTable, usual_tide);
-    if (!doubt) return {};
-    if (doubt->is_zero)
-        return text::message(
+    if (!doubt) return warnings;
+    if (doubt->is_zero) {
+        warnings.push_back(text::message(
             "the tide {} is 0 throughout, where the computed one varies by more than {:.2f} mGal. "
             "This is right only if the readings are corrected already; if not, use the tide direct",
-            choice.source, kTideOfAnyTable.most_mgal);
-    return text::message(
+            choice.source, kTideOfAnyTable.most_mgal));
+        return warnings;
+    }
+    warnings.push_back(text::message(
         "the tide {} is not that of these times and places: it differs from the computed one by up "
         "to {:.3f} mGal, at {} ({}){}. It is used as it is",
         choice.source, doubt->size_mgal, row_of[doubt->index]->site,
         row_of[doubt->index]->occupation,
         doubt->remedy.empty() ? text::message(": check its sign, the times and the positions")
-                              : doubt->remedy);
+                              : doubt->remedy));
+    return warnings;
 }
 
 void describe_tide(Json& settings, const Choice& choice) {

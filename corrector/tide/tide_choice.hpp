@@ -40,7 +40,8 @@ struct Choice {
     /// System of the gravity that remains.  Only direct and longman can give each one; a given tide has
     /// the one that its table names, or tide_free if it names none.
     System system = System::tide_free;
-    std::optional<System> given_system = {};  ///< From the table of a given tide; absent: not known.
+    std::optional<System> given_system =
+        {};  ///< From the table of a given tide; absent: not known.
 };
 
 /// Allowed values of a tide, for messages and help.
@@ -104,13 +105,14 @@ void set_tide_system(Choice& choice, const std::string& text, const std::string&
 void apply_tide(std::vector<reading::SurveyRow>& rows, const std::vector<text::Site>& sites,
                 const Choice& choice, reading::DayRecord* day = nullptr);
 
-/// Returns a warning if a tide that is not computed, `given` or a series, is not that of the times and
-/// places of the rows (find_doubt() with kTideOfAnyTable), or 0 throughout.  Readings of an hour or
-/// two show nothing, because the mean difference is left out.
+/// Returns warnings about a tide that is not computed: factors other than the usual ones, which have
+/// no effect on it; and, of `given` or a series, that it is not that of the times and places of the
+/// rows (find_doubt() with kTideOfAnyTable), or 0 throughout.  Readings of an hour or two do not show
+/// the latter, because the mean difference is left out.
 /// @param rows  after apply_tide(); those of sites without a position are left out.
-[[nodiscard]] text::Message doubtful_tide(const std::vector<reading::SurveyRow>& rows,
-                                          const std::vector<text::Site>& sites,
-                                          const Choice& choice);
+[[nodiscard]] std::vector<text::Message> tide_warnings(const std::vector<reading::SurveyRow>& rows,
+                                                       const std::vector<text::Site>& sites,
+                                                       const Choice& choice);
 
 /// Adds source, model, sign and factors of the tide to the settings of a result.  The factors are
 /// null if the tide is not computed.

@@ -226,6 +226,25 @@ TEST_CASE("a finding about a gravimeter has a size that can be read") {
                ContainsSubstring("the readings are 0.06") && !ContainsSubstring("0.0 +- 0.0"));
 }
 
+TEST_CASE("it is said how many mistakes a curved drift leaves") {
+    const auto curved = [](const Survey& survey, int degree) {
+        model::SurveyOptions options;
+        options.priors.reading_sd_mgal = kReadingSd_mgal;
+        options.network.drift_degree = degree;
+        const auto rows = rows_of(survey, false);
+        std::vector<std::string> texts;
+        for (const auto& finding : judgement::correct_and_search({rows, {}, nullptr}, options).findings)
+            if (finding.code == "misfit_drift") texts.push_back(finding.text.english());
+        return texts;
+    };
+    CHECK(curved(kBoth, 1) ==
+          std::vector<std::string>{
+              "a drift of degree 3 in each loop leaves 1 of these 6 mistakes, and s0 is 1.01; with the "
+              "mistakes put right it is 0.59: the drift may be curved"});
+    CHECK(curved(kBoth, 3).empty());
+    CHECK(curved(kMeters[2], 1).empty());
+}
+
 TEST_CASE("the table of absolute values comes from the files of the absolute gravimeter") {
     // The value at the mark: that at the transfer height of 100 cm plus 3 uGal/cm.
     const std::map<std::string, std::string> suffixes{{"2017-12", "_2017-12-01.project.txt"},

@@ -40,6 +40,17 @@ TEST_CASE("nothing is said of a day of ordinary stays") {
     CHECK(stay_remarks(brief, record()).empty());
 }
 
+TEST_CASE("a list of which most set-ups have no samples is named: its hours are doubtful") {
+    CHECK_FALSE(mostly_without_samples(0, 0));
+    CHECK_FALSE(mostly_without_samples(9, 18));
+    const auto finding = mostly_without_samples(10, 19);
+    REQUIRE(finding);
+    CHECK(finding->is_headline);
+    CHECK(finding->text ==
+          "10 of 19 set-ups have no samples: check when the sensor recorded, and date, hour and "
+          "zone of the stays");
+}
+
 TEST_CASE("a stay without a stop is named, unless its move or an amendment ends it") {
     auto windows = day();
     windows[1].notes = {"no-stop"};

@@ -190,15 +190,18 @@ TEST_CASE("a given tide of another sign, time or place is named; another permane
             row.occupation = hour + 1;
             row.time = kStart + std::chrono::hours(hour);
             const tide::Station station{site.latitude, site.longitude, site.altitude};
-            row.tide = MilliGal(factor * direct_tide(row.time + shift, station).value() + added_mgal);
+            row.tide =
+                MilliGal(factor * direct_tide(row.time + shift, station).value() + added_mgal);
         }
-        return doubtful_tide(rows, {site}, {source, {}, {}}).english();
+        const auto warnings = tide_warnings(rows, {site}, {source, {}, {}});
+        return warnings.empty() ? std::string() : warnings.at(0).english();
     };
     CHECK(doubt(1.2 / 1.16, 0s, 0.06, "given").empty());
     CHECK(doubt(0.0, 0s, 0.0, "none").empty());
-    CHECK_THAT(doubt(0.0, 0s, 0.0, "given"),
-               StartsWith("the tide given is 0 throughout, where the computed one varies by more than "
-                          "0.03 mGal."));
+    CHECK_THAT(
+        doubt(0.0, 0s, 0.0, "given"),
+        StartsWith("the tide given is 0 throughout, where the computed one varies by more than "
+                   "0.03 mGal."));
     CHECK_THAT(doubt(-1.0, 0s, 0.0, "given"),
                StartsWith("the tide given is not that of these times and places: it differs from "
                           "the computed one by up to 0.") &&
@@ -208,6 +211,19 @@ TEST_CASE("a given tide of another sign, time or place is named; another permane
                    EndsWith("; it fits if +9.0 h are added to the times. It is used as it is"));
     CHECK_THAT(doubt(2.0, 0s, 0.0, "given"),
                EndsWith(": check its sign, the times and the positions. It is used as it is"));
+}
+
+TEST_CASE("factors of a tide that is not computed are named, because they have no effect") {
+    const auto count = [](const std::string& source, const Factors& factors) {
+        return tide_warnings({}, {}, {source, factors, {}}).size();
+    };
+    CHECK(count("direct", {1.2, 1.07}) == 0);
+    CHECK(count("given", {}) == 0);
+    for (const std::string source : {"given", "none"})
+        CHECK(tide_warnings({}, {}, {source, {1.2, 1.07}, {}}).at(0) ==
+              "the tide is " + source +
+                  ": delta2 and delta3 have an effect only on a computed one");
+    CHECK(count("given", {1.16, 1.0}) == 1);
 }
 
 TEST_CASE("a tide that the survey declares as given must be in the table") {
