@@ -4,7 +4,7 @@
 
 #include "corrector/figure/long_record_figures.hpp"
 #include "protocol/core/units.hpp"
-#include "protocol/signal/regression.hpp"
+#include "protocol/signal/moments.hpp"
 #include "protocol/text/message.hpp"
 
 namespace a351::corrector::figure {

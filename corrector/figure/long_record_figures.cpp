@@ -8,6 +8,7 @@
 
 #include "corrector/figure/record_curve.hpp"
 #include "protocol/core/units.hpp"
+#include "protocol/signal/moments.hpp"
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/message.hpp"
 

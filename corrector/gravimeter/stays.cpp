@@ -5,6 +5,8 @@
 #include <map>
 #include <set>
 
+#include "protocol/signal/moments.hpp"
+
 namespace a351::corrector::gravimeter {
 namespace {
 
@@ -35,12 +37,6 @@ bool continues(const Stay& stay, const Reading& next) {
     return last.site == next.site && !begins_loop(last, next) &&
            last.tide_correction.has_value() == next.tide_correction.has_value() &&
            std::chrono::duration<double>(seconds_between(last.time, next.time)) <= kLongestPause;
-}
-
-double mean(const std::vector<double>& values) {
-    double sum = 0.0;
-    for (const double value : values) sum += value;
-    return sum / static_cast<double>(values.size());
 }
 
 /// Returns the median; for an even number of values the mean of the two in the middle, because the
@@ -91,11 +87,13 @@ StayAverage average_of(const Stay& stay, const AverageOptions& options) {
         times_s.push_back(seconds_between(first, reading.time));
         if (reading.tide_correction) tides_mgal.push_back(reading.tide_correction->value());
     }
-    average.time = first + from_seconds(mean(times_s));
-    average.value = MilliGal(options.is_mean ? mean(values_mgal) : centred_median(values_mgal));
-    if (tides_mgal.size() == average.count) average.tide_correction = MilliGal(mean(tides_mgal));
+    average.time = first + from_seconds(signal::mean_of(times_s));
+    average.value =
+        MilliGal(options.is_mean ? signal::mean_of(values_mgal) : centred_median(values_mgal));
+    if (tides_mgal.size() == average.count)
+        average.tide_correction = MilliGal(signal::mean_of(tides_mgal));
     if (average.count > 1) {
-        const double centre = mean(values_mgal);
+        const double centre = signal::mean_of(values_mgal);
         double squares = 0.0;
         for (const double value : values_mgal) squares += (value - centre) * (value - centre);
         average.sd = MilliGal(std::sqrt(squares / static_cast<double>(average.count - 1)));

@@ -7,6 +7,7 @@
 
 #include "protocol/core/units.hpp"
 #include "protocol/signal/fourier.hpp"
+#include "protocol/signal/moments.hpp"
 #include "protocol/signal/regression.hpp"
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/unit/combined_estimates.hpp"

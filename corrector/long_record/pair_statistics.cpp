@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "protocol/core/units.hpp"
+#include "protocol/signal/moments.hpp"
 #include "protocol/text/aligned_text.hpp"
 
 namespace a351::corrector::long_record {

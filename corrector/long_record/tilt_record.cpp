@@ -8,6 +8,7 @@
 #include "corrector/noise/spectral_density.hpp"
 #include "protocol/core/input_error.hpp"
 #include "protocol/signal/fourier.hpp"
+#include "protocol/signal/moments.hpp"
 #include "protocol/signal/regression.hpp"
 
 namespace a351::corrector::long_record {

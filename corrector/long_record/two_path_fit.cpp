@@ -6,7 +6,7 @@
 #include "corrector/long_record/two_path_regression.hpp"
 #include "corrector/whole_day/day_priors.hpp"
 #include "protocol/core/units.hpp"
-#include "protocol/signal/regression.hpp"
+#include "protocol/signal/moments.hpp"
 
 namespace a351::corrector::long_record {
 namespace {

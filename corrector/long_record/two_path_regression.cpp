@@ -12,6 +12,7 @@
 #include "protocol/linear_algebra/cholesky.hpp"
 #include "protocol/linear_algebra/normal_matrix.hpp"
 #include "protocol/signal/fourier.hpp"
+#include "protocol/signal/moments.hpp"
 #include "protocol/signal/regression.hpp"
 
 namespace a351::corrector::long_record {

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "protocol/signal/distributions.hpp"
-#include "protocol/signal/regression.hpp"
+#include "protocol/signal/moments.hpp"
 
 namespace a351::corrector::noise {
 namespace {

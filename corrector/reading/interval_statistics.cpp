@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
+
+#include "protocol/signal/moments.hpp"
 
 namespace a351::corrector::reading {
 namespace {
@@ -14,7 +15,7 @@ constexpr double kMonotoneShare = 0.8;
 std::vector<double> block_means(std::span<const double> values, std::size_t block_size) {
     std::vector<double> means;
     for (std::size_t i = 0; i + block_size <= values.size(); i += block_size)
-        means.push_back(mean(values.subspan(i, block_size)));
+        means.push_back(signal::mean_of(values.subspan(i, block_size)));
     return means;
 }
 
@@ -50,18 +51,11 @@ TemperatureShape shape_of(std::span<const double> temperatures, std::size_t bloc
 
 }  // namespace
 
-double mean(std::span<const double> values) {
-    if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-    double sum = 0.0;
-    for (const double value : values) sum += value - values.front();
-    return values.front() + sum / static_cast<double>(values.size());
-}
-
 std::optional<double> block_standard_error(std::span<const double> values, std::size_t block_size) {
     if (block_size == 0) return std::nullopt;
     const std::vector<double> means = block_means(values, block_size);
     if (means.size() < 2) return std::nullopt;
-    const double centre = mean(means);
+    const double centre = signal::mean_of(means);
     double squares = 0.0;
     for (const double value : means) squares += (value - centre) * (value - centre);
     const double count = static_cast<double>(means.size());
@@ -79,8 +73,8 @@ std::optional<TemperatureSummary> summarise_temperature(const TimeSeries<DegC>& 
         hours.push_back(static_cast<double>(i) / temperature.rate().value() / kSecondsPerHour);
     }
     if (valid_degc.size() < 2) return std::nullopt;
-    const double mean_degc = mean(valid_degc);
-    const double mean_hour = mean(hours);
+    const double mean_degc = signal::mean_of(valid_degc);
+    const double mean_hour = signal::mean_of(hours);
     double product = 0.0;
     double square = 0.0;
     for (std::size_t i = 0; i < hours.size(); ++i) {
@@ -114,7 +108,7 @@ AxisSummary summarise_axis(const TimeSeries<StandardGravity>& raw,
         squares += deviation * deviation;
     }
     const double rms = std::sqrt(squares / static_cast<double>(samples.size()));
-    return {StandardGravity(mean(samples)), to_milligal(StandardGravity(rms))};
+    return {StandardGravity(signal::mean_of(samples)), to_milligal(StandardGravity(rms))};
 }
 
 }  // namespace a351::corrector::reading

@@ -18,16 +18,6 @@
 
 namespace a351::corrector::reading {
 
-/// Returns the arithmetic mean of (n) values, any unit; NaN for an empty span or if a value is NaN.
-/// Differences from the first value are summed, which keeps rounding small near 980 000 mGal.
-///
-/// The mean of equal values is exactly this value.  An infinite value gives infinity or NaN.
-/// The sum of the differences must not overflow; this is not checked.  The time is O(n), and
-/// nothing is allocated.
-///
-/// @param values  (n), any n; missing samples must be removed before.
-[[nodiscard]] double mean(std::span<const double> values);
-
 /// Returns the standard error of the mean of `values`, estimated from the means m_k of B blocks:
 ///
 ///     sqrt(sum of (m_k - mean of m)^2 / ((B - 1) B))

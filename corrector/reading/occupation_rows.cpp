@@ -301,9 +301,9 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
         add_rows(result, set_ups, windows, stays, source.is_tumbled);
     if (result.rows.empty()) refuse_all(source, set_ups, result.warnings, absent);
     const auto without_samples = std::ranges::count(set_ups, kNoSamples, &AveragedSetUp::trouble);
-    auto finding =
+    auto unrecorded =
         mostly_without_samples(static_cast<std::size_t>(without_samples), set_ups.size());
-    if (finding && !source.is_so_far) result.findings.push_back(std::move(*finding));
+    if (unrecorded && !source.is_so_far) result.findings.push_back(std::move(*unrecorded));
     for (Finding& remark : stay_remarks(averaged, samples[kVertical]))
         result.findings.push_back(std::move(remark));
     result.findings.insert(result.findings.end(), findings.begin(), findings.end());

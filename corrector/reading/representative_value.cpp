@@ -12,6 +12,7 @@
 #include "corrector/reading/disturbance.hpp"
 #include "corrector/reading/interval.hpp"
 #include "corrector/reading/smoother.hpp"
+#include "protocol/signal/moments.hpp"
 
 namespace a351::corrector::reading {
 namespace {
@@ -163,8 +164,8 @@ std::optional<RepresentativeValue> representative_value(const OccupationRecord& 
     const std::size_t last = part_begin + interval.last;
     const std::size_t length = last - first + 1;
     const auto in_interval = std::span(series.values()).subspan(first, length);
-    const auto mean_of = [&](const std::vector<double>& values) {
-        return MilliGal(mean(std::span(values).subspan(interval.first, length)));
+    const auto mean_in_interval = [&](const std::vector<double>& values) {
+        return MilliGal(signal::mean_of(std::span(values).subspan(interval.first, length)));
     };
 
     const auto summarise = [&](const TimeSeries<StandardGravity>& axis,
@@ -176,10 +177,10 @@ std::optional<RepresentativeValue> representative_value(const OccupationRecord& 
     const auto error = block_standard_error(in_interval, samples_in(kBlockSeconds, series.rate()));
 
     RecordSummary summary;
-    summary.series_mean = MilliGal(mean(in_interval));
-    summary.curve_mean = mean_of(curve);
-    summary.eemd_mean = mean_of(trend);
-    summary.smoother_mean = mean_of(smoothed.curve);
+    summary.series_mean = MilliGal(signal::mean_of(in_interval));
+    summary.curve_mean = mean_in_interval(curve);
+    summary.eemd_mean = mean_in_interval(trend);
+    summary.smoother_mean = mean_in_interval(smoothed.curve);
     summary.smoother_standard_error =
         MilliGal(smoothed.standard_error_of_mean(interval.first, interval.last));
     if (error) summary.standard_error = MilliGal(*error);

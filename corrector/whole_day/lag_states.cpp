@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "protocol/signal/moments.hpp"
+
 namespace a351::corrector::whole_day {
 namespace {
 
@@ -37,14 +39,6 @@ std::vector<reading::TemperatureGap> stretches_like(const reading::TemperatureGa
     return found;
 }
 
-double standard_deviation(const std::vector<double>& values) {
-    double sum = 0.0, squares = 0.0;
-    for (const double value : values) sum += value;
-    const auto n = static_cast<double>(values.size());
-    for (const double value : values) squares += std::pow(value - sum / n, 2);
-    return std::sqrt(squares / n);
-}
-
 }  // namespace
 
 std::vector<LagStates> lag_states(const reading::DayTemperature& temperature, double fast_lag_s,
@@ -55,7 +49,8 @@ std::vector<LagStates> lag_states(const reading::DayTemperature& temperature, do
     for (const reading::TemperatureGap& gap : temperature.gaps) {
         const auto stretches = stretches_like(gap, temperature);
         const auto deviation = [&](double lag_s) {
-            if (stretches.empty()) return std::max(standard_deviation(degc), kLeastUnknown_degc);
+            if (stretches.empty())
+                return std::max(std::sqrt(signal::variance_of(degc)), kLeastUnknown_degc);
             double squares = 0.0;
             for (const reading::TemperatureGap& stretch : stretches)
                 squares += std::pow(state_error_degc(degc, stretch, lag_s * rate_hz), 2);

@@ -4,26 +4,12 @@
 
 #include "protocol/core/units.hpp"
 #include "protocol/signal/distributions.hpp"
+#include "protocol/signal/moments.hpp"
 
 namespace a351::daemon::verdict {
 namespace {
 
 constexpr int kPerMinute = 30;  // samples
-
-double mean_of(const std::vector<double>& values) {
-    // Differences from the first value keep the digits of a sum of large numbers.
-    double sum = 0.0;
-    for (const double value : values) sum += value - values.front();
-    return values.front() + sum / static_cast<double>(values.size());
-}
-
-/// Returns the standard deviation of at least two values.
-double sd_of(const std::vector<double>& values) {
-    const double mean = mean_of(values);
-    double square = 0.0;
-    for (const double value : values) square += (value - mean) * (value - mean);
-    return std::sqrt(square / static_cast<double>(values.size() - 1));
-}
 
 std::array<MilliGal, 2> limits_of_sd(double sd_mgal, double degrees) {
     const auto at = [&](double quantile) {
@@ -67,9 +53,9 @@ RunningReading RunningValue::reading() const {
     }
     if (means_mgal.empty()) return reading;
     reading.set_ups = static_cast<int>(means_mgal.size());
-    reading.value = MilliGal(mean_of(means_mgal));
+    reading.value = MilliGal(signal::mean_of(means_mgal));
     if (means_mgal.size() < 2) return reading;
-    const double sd = sd_of(means_mgal), count = reading.set_ups;
+    const double sd = signal::sample_sd_of(means_mgal), count = reading.set_ups;
     reading.set_up_sd = MilliGal(sd);
     reading.set_up_sd_limits = limits_of_sd(sd, count - 1.0);
     reading.set_up_error = MilliGal(sd / std::sqrt(count));

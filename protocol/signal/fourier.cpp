@@ -2,7 +2,7 @@
 
 #include <unsupported/Eigen/FFT>
 
-#include "protocol/signal/regression.hpp"
+#include "protocol/signal/moments.hpp"
 
 namespace a351::signal {
 

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "protocol/signal/distributions.hpp"
+#include "protocol/signal/moments.hpp"
 
 namespace a351::signal {
 namespace {
@@ -54,17 +55,6 @@ CorrelationPeak find_peak(const CrossCorrelation& all, double sign, std::size_t 
 }
 
 }  // namespace
-
-double mean_of(std::span<const double> values) {
-    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
-double variance_of(std::span<const double> values) {
-    const double mean = mean_of(values);
-    double sum = 0.0;
-    for (const double value : values) sum += (value - mean) * (value - mean);
-    return sum / static_cast<double>(values.size());
-}
 
 LineFit fit_line(std::span<const double> x, std::span<const double> y, std::size_t correlated) {
     LineFit fit;

@@ -37,11 +37,6 @@ struct LineFit {
 /// @param values  (n) finite, n >= 3.
 [[nodiscard]] std::vector<double> without_line(std::span<const double> values);
 
-/// Returns the mean; NaN for an empty series.
-[[nodiscard]] double mean_of(std::span<const double> values);
-/// Returns the variance about the mean, divisor n; NaN for an empty series.
-[[nodiscard]] double variance_of(std::span<const double> values);
-
 /// The strongest correlation of one sign.  A delay is positive if the acceleration follows the
 /// temperature.
 struct CorrelationPeak {

@@ -2,6 +2,7 @@
 #include <random>
 #include "tests/support/catch.hpp"
 
+#include "protocol/signal/moments.hpp"
 #include "protocol/signal/regression.hpp"
 
 using namespace a351::signal;
@@ -19,6 +20,16 @@ std::vector<double> noise(unsigned seed, double kept) {
 }
 
 }  // namespace
+
+TEST_CASE("moments of large numbers keep their digits, and none have none") {
+    const std::vector<double> readings{980000.1, 980000.1, 980000.1}, spread{980000.0, 980000.003};
+    CHECK(mean_of(readings) == 980000.1);
+    CHECK(variance_of(readings) == 0.0);
+    CHECK(sample_sd_of(spread) == Approx(0.003 / std::sqrt(2.0)).epsilon(1e-7));
+    CHECK(std::isnan(mean_of({})));
+    CHECK(std::isnan(variance_of({})));
+    CHECK(std::isnan(sample_sd_of(std::vector<double>{1.0})));
+}
 
 TEST_CASE("correlations reach to the lag that is asked for, and peaks are near zero") {
     std::vector<double> first, later;
