@@ -244,9 +244,11 @@ std::ptrdiff_t count_mistakes(const std::vector<Finding>& findings) {
 /// Says that a drift of a higher degree in each loop leaves at least three mistakes fewer, if so.
 /// Its terms are more than those of the mistakes, so it proves nothing: s0 of both fits is given.
 /// @param right  the survey with the mistakes put right.
+/// @param known  findings that were known before the search.
 std::optional<Finding> curved_drift(const model::SurveyCorrection& result,
                                     const SearchedSurvey& survey,
-                                    const model::AmendedSurvey& right) {
+                                    const model::AmendedSurvey& right,
+                                    const std::vector<Finding>& known) {
     constexpr std::ptrdiff_t kFewestLess = 3;
     const std::ptrdiff_t mistakes = count_mistakes(result.findings);
     if (result.as<model::NetworkPart>() == nullptr || mistakes < kFewestLess) return std::nullopt;
@@ -260,7 +262,8 @@ std::optional<Finding> curved_drift(const model::SurveyCorrection& result,
     model::SurveyOptions options = result.options;
     for (int& degree = ++options.network.drift_degree; degree <= model::kGreatestDriftDegree;
          ++degree) {
-        const model::SurveyCorrection curved = corrected(survey.rows, options);
+        model::SurveyCorrection curved = corrected(survey.rows, options);
+        curved.findings = known;
         const std::ptrdiff_t left = count_mistakes(find_mistakes(curved, survey));
         if (mistakes - left < kFewestLess) continue;
         return Finding{
@@ -361,7 +364,7 @@ model::SurveyCorrection correct_and_search(const SearchedSurvey& survey,
     }
     result.findings = std::move(found.findings);
     if (found.amended)
-        if (auto finding = curved_drift(result, survey, *found.amended)) {
+        if (auto finding = curved_drift(result, survey, *found.amended, known)) {
             result.findings.push_back(std::move(*finding));
             std::ranges::stable_sort(result.findings, {}, rank_of);
         }

@@ -224,6 +224,11 @@ TEST_CASE("a finding about a gravimeter has a size that can be read") {
     CHECK(result.findings[0].kind == reading::FindingKind::step);
     CHECK_THAT(result.findings[0].text.english(),
                ContainsSubstring("the readings are 0.06") && !ContainsSubstring("0.0 +- 0.0"));
+    // A drift cannot explain what was known before the search.
+    const std::vector<reading::Finding> known(
+        3, {.kind = reading::FindingKind::bad_reading, .code = "never_at_rest", .text = "x"});
+    const auto with_known = judgement::correct_and_search({rows, {}, nullptr}, options, known);
+    CHECK(with_known.findings.size() == result.findings.size() + known.size());
 }
 
 TEST_CASE("it is said how many mistakes a curved drift leaves") {
