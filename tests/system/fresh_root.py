@@ -13,8 +13,10 @@ import time
 
 from programs import demand, run
 
-ENVIRONMENT = ["/usr/bin/env", "-u", "TMPDIR", "PATH=/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin",
-               "DEBIAN_FRONTEND=noninteractive", "HOME=/tmp"]
+# Nothing that points to this tree; settings of a proxy stay.
+ENVIRONMENT = ["/usr/bin/env", "-u", "TMPDIR",
+               *(f"--unset={name}" for name in os.environ if name.startswith("A351_")),
+               "PATH=/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin", "DEBIAN_FRONTEND=noninteractive", "HOME=/tmp"]
 MOUNTS = pathlib.Path("/proc/self/mounts")
 
 # Starts systemd as the first process of its own namespaces, in its own cgroup.  It sees neither the host's processes nor its
