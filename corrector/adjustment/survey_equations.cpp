@@ -247,7 +247,7 @@ std::vector<std::string> SurveyEquations::labels() const {
     std::vector<std::string> labels;
     for (const ReadingRow& reading : readings_)
         labels.push_back(
-            fmt::format("{} ({})", (*rows_)[reading.row].site, (*rows_)[reading.row].occupation));
+            reading::stay_name((*rows_)[reading.row].site, (*rows_)[reading.row].occupation));
     for (const EquationStation& station : stations_)
         if (station.held) labels.push_back("datum " + station.site);
     for (const bool is_scale : {true, false})

@@ -51,7 +51,7 @@ public:
              const std::vector<std::string>& archive_sha256, const std::string& file) {
         std::vector<Counted> added;
         for (const reading::SurveyRow& row : rows)
-            added.push_back({row.start.value_or(row.time), row.end.value_or(row.time), file});
+            added.push_back({row.first_instant(), row.last_instant(), file});
         for (const std::string& sha256 : archive_sha256) {
             std::vector<Counted>& before = of_archive_file_[sha256];
             for (const Counted& one : added)
@@ -161,7 +161,7 @@ void read_series(unit::Calibration& calibration, const std::vector<std::string>&
         if (const text::Message doubt = text::doubtful_site(read.sites); !doubt.empty())
             print_warnings({doubt}, survey.name + ": ");
         measure(read, survey.name, file);
-        const UtcTime start = read.rows.front().start.value_or(read.rows.front().time);
+        const UtcTime start = read.rows.front().first_instant();
         counted.add(read.rows,
                     unit::note_origin(calibration, read.serial_number, start, read.inputs, file),
                     file);

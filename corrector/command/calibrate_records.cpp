@@ -23,10 +23,6 @@ constexpr double kSettled_h = 4.0;
 constexpr double kContradiction = 0.01;
 constexpr double kCycle_s = 900.0;  // usual cycle of the oven, for the bands of the residual test
 
-double hours_of(const long_record::RecordSegment& segment, double step_s) {
-    return static_cast<double>(segment.size()) * step_s / kSecondsPerHour;
-}
-
 /// Returns the time from power-on to the start of the segment, if it is at most kLatestBegin_h.
 std::optional<double> begins_after_h(const long_record::RecordSegment& segment,
                                      const std::optional<UtcTime>& power_on) {
@@ -123,11 +119,11 @@ std::string calibrate_from_records(unit::Calibration& calibration,
             long_record::RecordSegment whole = segment;
             whole.outer_degc.clear();
             warm_up = long_record::warm_up_guidance(fitted(whole, record.step_s), *begin_h,
-                                                    hours_of(segment, record.step_s), within_mgal);
+                                                    segment.hours(record.step_s), within_mgal);
             segment = without_begin(std::move(segment), record.step_s);
         }
         const std::string name =
-            fmt::format("{} h from {}", text::fixed(hours_of(segment, record.step_s), 1),
+            fmt::format("{} h from {}", text::fixed(segment.hours(record.step_s), 1),
                         to_rfc3339(segment.start));
         const std::string lack =
             segment.size() < long_record::SegmentOptions{}.shortest

@@ -10,6 +10,7 @@
 #include "corrector/reading/refused.hpp"
 #include "corrector/report/gravity_so_far.hpp"
 #include "protocol/archive/journal_tail.hpp"
+#include "protocol/text/json_text.hpp"
 
 namespace a351::corrector::command {
 
@@ -28,10 +29,7 @@ void print_gravity_so_far(job::SurveyFile survey) {
         so_far.reason = refused.code();
         so_far.reason_text = report::in_words(refused);
     }
-    // Names of sites may be in any encoding, but JSON is UTF-8.
-    std::cout << report::to_json(so_far).dump(2, ' ', false,
-                                              nlohmann::ordered_json::error_handler_t::replace)
-              << '\n';
+    std::cout << text::json_text(report::to_json(so_far), 2) << '\n';
 }
 
 }  // namespace a351::corrector::command

@@ -77,9 +77,8 @@ void add_tide_system(CLI::App& command, std::string& system) {
 }
 
 tide::Factors tide_factor_options(const tide::Factors& factors) {
-    constexpr double kLeast = 0.5, kGreatest = 2.0;  // 1 is a rigid Earth
-    return {number_option("--delta2", factors.delta2, kLeast, kGreatest),
-            number_option("--delta3", factors.delta3, kLeast, kGreatest)};
+    return {number_option("--delta2", factors.delta2, tide::kLeastFactor, tide::kGreatestFactor),
+            number_option("--delta3", factors.delta3, tide::kLeastFactor, tide::kGreatestFactor)};
 }
 
 UtcTime instant_option(std::string_view name, const std::string& text) {

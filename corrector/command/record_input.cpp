@@ -58,7 +58,8 @@ long_record::RecordSegments divide_or_refuse(const long_record::LongRecord& reco
     std::string message = name + ": no part can be analysed";
     for (const long_record::RefusedPart& part : parts.refused)
         message += fmt::format("; from {} {}", to_rfc3339(part.start), part.reason);
-    const double shortest_h = static_cast<double>(options.shortest) * record.step_s / 3600.0;
+    const double shortest_h =
+        static_cast<double>(options.shortest) * record.step_s / kSecondsPerHour;
     throw InputError(
         fmt::format("{}; allowed: {} h or more in one piece", message, text::fixed(shortest_h, 1)));
 }

@@ -6,6 +6,7 @@
 
 #include "corrector/result/columns.hpp"
 #include "protocol/text/aligned_text.hpp"
+#include "protocol/text/json_text.hpp"
 
 namespace a351::corrector::design {
 namespace {
@@ -86,8 +87,7 @@ std::string design_json(const Design& design, const std::vector<text::InputFile>
     json["stations"] = result::json_array(station_columns(), design.errors.stations);
     json["differences"] = result::json_array(difference_columns(), design.errors.differences);
     json["alternatives"] = result::json_array(alternative_columns(), design.alternatives);
-    // Names of sites may be in any encoding, but JSON is UTF-8.
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+    return text::json_text(json, 2) + '\n';
 }
 
 std::string design_text(const Design& design) {

@@ -56,8 +56,8 @@ std::optional<MilliGal> u_in_the_evening(const model::SurveyCorrection& result,
                           [](const model::CorrectedRow& row) { return row.row.key; });
     if (running == result.rows.rend() || running->row.reference) return std::nullopt;
     const std::string& site = running->row.site;
-    const auto station = std::ranges::find(result.stations, site, &model::StationValue::site);
-    if (station == result.stations.end() || !station->u_gravity) return std::nullopt;
+    const auto* const station = result.station(site);
+    if (station == nullptr || !station->u_gravity) return std::nullopt;
 
     Plan plan = visits_so_far(result.rows);
     const auto is_listed = [&](const Visit& visit) {

@@ -38,8 +38,7 @@ Figure series_figure(const long_record::RecordResult& result, const Print& print
                   print.wide_mm()};
     const auto add = [&](const char* title, const std::vector<double>& values, Colour colour) {
         figure.panels.push_back(
-            {.y = {std::string(text::translated(title, text::language())) + " (mGal)",
-                   {low - mean - 1.0, high - mean + 1.0}},
+            {.y = {text::translated(title) + " (mGal)", {low - mean - 1.0, high - mean + 1.0}},
              .height_mm = kStackedPanel_mm});
         figure.plot(fmt::format("hours {} (mGal)", title), mean_lines(values, result.record.step_s),
                     {Look::line, colour}, figure.panels.size() - 1);

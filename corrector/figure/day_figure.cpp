@@ -35,16 +35,14 @@ std::vector<Stay> stays_of(const model::SurveyCorrection& result,
     auto record = records.begin();
     for (std::size_t i = 0; i < result.rows.size(); ++i) {
         const reading::SurveyRow& row = result.rows[i].row;
-        Stay stay{row.start.value_or(row.time), row.end.value_or(row.time), short_label(row.site)};
+        Stay stay{row.first_instant(), row.last_instant(), short_label(row.site)};
         if (record != records.end() && record->row == i) {
             const auto& series = record->value->series;
             stay.start = std::min(stay.start, series.start());
             stay.end = std::max(stay.end, series.time_of(static_cast<double>(series.size())));
             ++record;
         }
-        const bool is_further_set_up = i > 0 && result.rows[i - 1].row.site == row.site &&
-                                       result.rows[i - 1].row.occupation == row.occupation;
-        if (is_further_set_up)
+        if (i > 0 && reading::is_same_stay(result.rows[i - 1].row, row))  // a further set-up
             stays.back().end = stay.end;
         else
             stays.push_back(stay);
@@ -148,8 +146,7 @@ void plot_signal(Figure& figure, const std::vector<reading::SignalSpan>& signal)
                 lines += fmt::format("{0} {1:.2f}\n{2} {1:.2f}\n\n", to_rfc3339(span.start), height,
                                      to_rfc3339(span.end));
         figure.plot(fmt::format("signal {}: time_utc height", word), lines,
-                    {Look::ribbon, colour, std::string(text::translated(name, text::language()))},
-                    3);
+                    {Look::ribbon, colour, text::translated(name)}, 3);
     }
 }
 
@@ -252,9 +249,7 @@ std::optional<Figure> faces_figure(const model::SurveyCorrection& result, const 
                           end = "# " + clean_utf8(name.first) + '\n';
         halves.push_back({time, 0.5 * (up_mgal - down_mgal), end});
         mean_mgal += halves.back().difference_mgal;
-        const auto station =
-            std::ranges::find(result.stations, name.first, &model::StationValue::site);
-        if (station != result.stations.end())
+        if (const auto* const station = result.station(name.first))
             sums += time +
                     data_line("4", {0.5 * (up_mgal + down_mgal) - station->gravity.value()}, end);
     }

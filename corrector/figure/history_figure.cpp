@@ -65,8 +65,7 @@ Figure history_figure(const std::vector<result::UnitDay>& days, const Print& pri
         panel.x = {.step = static_cast<double>(date_step_s(days, print)),
                    .format = "%m-%d\n%Y",
                    .scale = Scale::time};
-        panel.y.label =
-            std::string(text::translated(result::term_kinds()[k].heading, text::language()));
+        panel.y.label = text::translated(result::term_kinds()[k].heading);
         panel.has_margin = true;
         panel.height_mm = kStackedPanel_mm;
         for (std::size_t unit = 0; unit < units.size(); ++unit)

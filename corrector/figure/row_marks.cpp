@@ -27,7 +27,7 @@ void plot_rows(Figure& figure, const model::SurveyCorrection& result, const std:
     }
     for (std::size_t k = 0; k < kKinds.size(); ++k) {
         Series series = looks.at(k);
-        series.label = text::translated(kKinds.at(k), text::language());
+        series.label = text::translated(kKinds.at(k));
         figure.plot(fmt::format("{}: {}", kKinds.at(k), columns), lines.at(k), series);
     }
 }

@@ -124,12 +124,11 @@ text::Message stay_number_remark(const GravimeterFile& file) {
         last = before = &reading;
     }
     if (count == 0) return {};
-    constexpr double kHour_s = 3600.0;
     return text::message(
         "stay numbers come back after other stations ({}); the longest pause is {:.1f} h, at {} "
         "with number {} (lines {} and {}), where the reading changes by {:+.3f} mGal. A new "
         "stay begins each time",
-        count, longest.size / kHour_s, longest.first->site, number_of(*longest.first),
+        count, longest.size / kSecondsPerHour, longest.first->site, number_of(*longest.first),
         longest.first->line, longest.second->line,
         (longest.second->value - longest.first->value).value());
 }

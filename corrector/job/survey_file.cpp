@@ -14,10 +14,6 @@
 namespace a351::corrector::job {
 namespace {
 
-/// Limits of the gravimetric factors.  Reason: no model of the Earth is outside them.
-constexpr double kLeastFactor = 0.5;
-constexpr double kGreatestFactor = 2.0;
-
 std::filesystem::path path_or(text::TomlTable& table, std::string_view key,
                               const std::filesystem::path& fallback) {
     const std::filesystem::path path = table.path_or_empty(key);
@@ -31,8 +27,8 @@ ReferenceSurvey read_reference(text::TomlTable table) {
         table.refuse("observations", "no such file: " + reference.observations.string(),
                      "a table as a351-correct import writes it");
     reference.priors.reading_sd_mgal =
-        table.number_or("reading_sd_mgal", adjustment::kGravimeterReadingSd_mgal, adjustment::kLeastSd_mgal,
-                        adjustment::kGreatestSd_mgal);
+        table.number_or("reading_sd_mgal", adjustment::kGravimeterReadingSd_mgal,
+                        adjustment::kLeastSd_mgal, adjustment::kGreatestSd_mgal);
     reference.network.drift_degree = static_cast<int>(table.integer_or(
         "drift_degree", reference.network.drift_degree, 0, model::kGreatestDriftDegree));
     const std::vector<double> scale = table.numbers("scale", -1.0, 2.0);
@@ -73,6 +69,69 @@ void refuse_removed_keys(const text::TomlTable& table) {
                      "no such key, because every model but paper is searched for bad readings");
 }
 
+void read_tide(SurveyFile& survey, text::TomlTable& table) {
+    if (!tide::set_tide_source(survey.tide, table.string_or("tide", "direct"),
+                               survey.path.parent_path()))
+        table.refuse("tide", "neither a source nor a file", tide::kTideSources);
+    survey.tide.factors.delta2 = table.number_or("delta2", survey.tide.factors.delta2,
+                                                 tide::kLeastFactor, tide::kGreatestFactor);
+    survey.tide.factors.delta3 = table.number_or("delta3", survey.tide.factors.delta3,
+                                                 tide::kLeastFactor, tide::kGreatestFactor);
+    tide::set_tide_system(
+        survey.tide, table.choice_or("tide_system", "tide-free", {"tide-free", "zero", "mean"}),
+        survey.path.string() + ": survey.tide_system");
+}
+
+void read_reduction(SurveyFile& survey, text::TomlTable& table) {
+    if (const auto height =
+            table.number("instrument_height_m", -reading::kGreatestInstrumentHeight_m,
+                         reading::kGreatestInstrumentHeight_m))
+        survey.reduction.height = Metres(*height);
+    survey.reduction.pressure = table.path_or_empty("pressure");
+    read_pressure_channel(survey, table);
+    survey.reduction.admittance_mgal_per_hpa = table.number_or(
+        "admittance_mgal_per_hpa", survey.reduction.admittance_mgal_per_hpa,
+        reduction::kLeastAdmittance_mgal_per_hpa, reduction::kGreatestAdmittance_mgal_per_hpa);
+    survey.reduction.is_admittance_fitted = survey.survey.network.fits_admittance =
+        table.boolean_or("fit_admittance", false);
+    survey.bouguer_density_kg_per_m3 =
+        table.number("bouguer_density_kg_per_m3", reduction::kLeastDensity_kg_per_m3,
+                     reduction::kGreatestDensity_kg_per_m3);
+}
+
+void read_averaging(SurveyFile& survey, text::TomlTable& table) {
+    survey.averaging.trend = table.choice_or("trend", "eemd", {"eemd", "smoother"}) == "eemd"
+                                 ? reading::TrendMethod::eemd
+                                 : reading::TrendMethod::smoother;
+    survey.averaging.cutoff_s =
+        table.number_or("cutoff_s", survey.averaging.cutoff_s, reading::kShortestCutoff_s,
+                        reading::kLongestCutoff_s);
+    survey.averaging.norm = table.choice_or("norm", "decimate-first",
+                                            {"decimate-first", "as-published"}) == "decimate-first"
+                                ? reading::NormOrder::decimate_first
+                                : reading::NormOrder::as_published;
+}
+
+void read_calibration_of_unit(SurveyFile& survey, text::TomlTable& table) {
+    const auto calibration = table.path_or_empty("calibration");
+    if (calibration.empty()) return;
+    if (!std::filesystem::exists(calibration))
+        table.refuse("calibration", "no such file: " + calibration.string(),
+                     "a file of a351-correct calibrate, or empty");
+    use_calibration(survey, calibration);
+}
+
+void read_network(SurveyFile& survey, text::TomlTable& table) {
+    survey.survey.priors.reading_sd_mgal =
+        table.number_or("reading_sd_mgal", survey.survey.priors.reading_sd_mgal,
+                        adjustment::kLeastSd_mgal, adjustment::kGreatestSd_mgal);
+    survey.survey.network.datum_sd_mgal =
+        table.number_or("datum_sd_mgal", survey.survey.network.datum_sd_mgal,
+                        adjustment::kLeastSd_mgal, adjustment::kGreatestSd_mgal);
+    survey.survey.network.drift_degree = static_cast<int>(table.integer_or(
+        "drift_degree", survey.survey.network.drift_degree, 0, model::kGreatestDriftDegree));
+}
+
 }  // namespace
 
 SurveyFile read_survey_file(const std::filesystem::path& file) {
@@ -95,55 +154,13 @@ SurveyFile read_survey_file(const std::filesystem::path& file) {
     for (std::string& name : survey.survey.datum) name = text::plain_text(name);
     survey.survey.model = table.choice_or("model", "auto", model::model_names());
     survey.survey.use_flags = table.choice_or("flags", "use", {"use", "ignore"}) == "use";
-    if (!tide::set_tide_source(survey.tide, table.string_or("tide", "direct"), beside))
-        table.refuse("tide", "neither a source nor a file", tide::kTideSources);
-    survey.tide.factors.delta2 =
-        table.number_or("delta2", survey.tide.factors.delta2, kLeastFactor, kGreatestFactor);
-    survey.tide.factors.delta3 =
-        table.number_or("delta3", survey.tide.factors.delta3, kLeastFactor, kGreatestFactor);
-    tide::set_tide_system(
-        survey.tide, table.choice_or("tide_system", "tide-free", {"tide-free", "zero", "mean"}),
-        survey.path.string() + ": survey.tide_system");
-    if (const auto height =
-            table.number("instrument_height_m", -reading::kGreatestInstrumentHeight_m,
-                         reading::kGreatestInstrumentHeight_m))
-        survey.reduction.height = Metres(*height);
-    survey.reduction.pressure = table.path_or_empty("pressure");
-    read_pressure_channel(survey, table);
-    survey.reduction.admittance_mgal_per_hpa = table.number_or(
-        "admittance_mgal_per_hpa", survey.reduction.admittance_mgal_per_hpa,
-        reduction::kLeastAdmittance_mgal_per_hpa, reduction::kGreatestAdmittance_mgal_per_hpa);
-    survey.reduction.is_admittance_fitted = survey.survey.network.fits_admittance =
-        table.boolean_or("fit_admittance", false);
-    survey.bouguer_density_kg_per_m3 =
-        table.number("bouguer_density_kg_per_m3", reduction::kLeastDensity_kg_per_m3,
-                     reduction::kGreatestDensity_kg_per_m3);
-    survey.averaging.trend = table.choice_or("trend", "eemd", {"eemd", "smoother"}) == "eemd"
-                                 ? reading::TrendMethod::eemd
-                                 : reading::TrendMethod::smoother;
-    survey.averaging.cutoff_s =
-        table.number_or("cutoff_s", survey.averaging.cutoff_s, reading::kShortestCutoff_s,
-                        reading::kLongestCutoff_s);
-    survey.averaging.norm = table.choice_or("norm", "decimate-first",
-                                            {"decimate-first", "as-published"}) == "decimate-first"
-                                ? reading::NormOrder::decimate_first
-                                : reading::NormOrder::as_published;
+    read_tide(survey, table);
+    read_reduction(survey, table);
+    read_averaging(survey, table);
     survey.survey.seed = static_cast<std::uint64_t>(
         table.integer_or("seed", 1, 0, std::numeric_limits<std::int64_t>::max()));
-    if (const auto calibration = table.path_or_empty("calibration"); !calibration.empty()) {
-        if (!std::filesystem::exists(calibration))
-            table.refuse("calibration", "no such file: " + calibration.string(),
-                         "a file of a351-correct calibrate, or empty");
-        use_calibration(survey, calibration);
-    }
-    survey.survey.priors.reading_sd_mgal =
-        table.number_or("reading_sd_mgal", survey.survey.priors.reading_sd_mgal,
-                        adjustment::kLeastSd_mgal, adjustment::kGreatestSd_mgal);
-    survey.survey.network.datum_sd_mgal =
-        table.number_or("datum_sd_mgal", survey.survey.network.datum_sd_mgal,
-                        adjustment::kLeastSd_mgal, adjustment::kGreatestSd_mgal);
-    survey.survey.network.drift_degree = static_cast<int>(table.integer_or(
-        "drift_degree", survey.survey.network.drift_degree, 0, model::kGreatestDriftDegree));
+    read_calibration_of_unit(survey, table);
+    read_network(survey, table);
     refuse_removed_keys(table);
     table.require_all_read();
     adjustment::read_priors(survey.survey.priors, document.table("prior"));

@@ -31,14 +31,9 @@ Contradiction about(const reading::SurveyRow& row, std::string code, text::Messa
     return {std::move(code), row.site, row.occupation, row.key, std::move(text), is_lesser};
 }
 
-/// Returns true for rows or contradictions of the same stay.
-bool is_same_stay(const auto& one, const reading::SurveyRow& other) {
-    return one.site == other.site && one.occupation == other.occupation;
-}
-
 bool is_named(const std::vector<Contradiction>& all, const reading::SurveyRow& row) {
-    return std::ranges::any_of(all,
-                               [&](const Contradiction& one) { return is_same_stay(one, row); });
+    return std::ranges::any_of(
+        all, [&](const Contradiction& one) { return reading::is_same_stay(one, row); });
 }
 
 std::string size_of(double mgal) { return text::fixed(std::abs(mgal), 1); }
@@ -53,8 +48,7 @@ text::Message off_reference(const reading::SurveyRow& row, double off_mgal) {
 void add_findings(std::vector<Contradiction>& all, const model::SurveyCorrection& result) {
     for (const Finding& finding : result.findings) {
         const bool is_of_reading =
-            finding.kind == FindingKind::other_name || finding.kind == FindingKind::reference ||
-            finding.kind == FindingKind::step || finding.kind == FindingKind::bad_reading ||
+            reading::is_mistake(finding) ||
             // A wrong unit is of the whole day, and no reading at this benchmark can clear it up.
             (finding.kind == FindingKind::scale && finding.code != kFarBiasCode);
         if (!is_of_reading) continue;

@@ -63,7 +63,7 @@ private:
     [[nodiscard]] Finding finding_of(const Mistake& mistake, FindingKind kind, std::string code,
                                      const SurveyRow& row) const {
         Finding finding{.kind = kind, .code = std::move(code)};
-        set_stay(finding, row, row.start.value_or(row.time));
+        set_stay(finding, row);
         set_size(finding, mistake);
         return finding;
     }
@@ -76,8 +76,7 @@ private:
 
     [[nodiscard]] bool is_one_stay(const Mistake& mistake) const {
         return std::ranges::all_of(mistake.readings, [&](std::size_t i) {
-            return rows_[i].site == first(mistake).site &&
-                   rows_[i].occupation == first(mistake).occupation;
+            return reading::is_same_stay(rows_[i], first(mistake));
         });
     }
 
@@ -351,14 +350,13 @@ private:
         const std::size_t i = mistake.readings.front();
         const SurveyRow& row = rows_[i];
         Finding finding = finding_of(mistake, FindingKind::bad_reading, "set_up_disagrees", row);
-        const auto is_same_stay = [&](const SurveyRow& other) {
-            return other.site == row.site && other.occupation == row.occupation;
-        };
         const auto number =
             row.listed.set_up
                 ? *row.listed.set_up
                 : 1 + std::count_if(rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(i),
-                                    is_same_stay);
+                                    [&](const SurveyRow& other) {
+                                        return reading::is_same_stay(other, row);
+                                    });
         finding.text = text::message("set-up {} of {} is {}, unlike the others: repeat it", number,
                                      stay_name(row), off_by(mistake.size_mgal, mistake.u_mgal));
         finding.amendment = exclusion(row, true, mistake);

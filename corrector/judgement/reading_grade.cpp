@@ -37,7 +37,7 @@ void add_refusals(ReadingGrade& reading, const model::CorrectedRow& row, bool us
 
 /// Adds that a knock split the record.  The whole-day model uses both parts.
 void add_knock(ReadingGrade& reading, const reading::SurveyRow& row) {
-    if (std::ranges::count(row.notes, "pulse") > 0)
+    if (row.has_note("pulse"))
         add(reading, Grade::care,
             {"pulse", {}, text::message("a knock split the record; its longest part was used")});
 }
@@ -86,7 +86,7 @@ void add_residual(ReadingGrade& reading, const model::CorrectedRow& row, bool is
 void add_findings(ReadingGrade& reading, const reading::SurveyRow& row,
                   const std::vector<reading::Finding>& findings) {
     for (const reading::Finding& finding : findings) {
-        if (finding.site != row.site || finding.occupation != row.occupation) continue;
+        if (!reading::is_same_stay(finding, row)) continue;
         if (finding.kind == reading::FindingKind::moved_box || reading::is_remark(finding))
             continue;
         add(reading,
@@ -118,11 +118,8 @@ void add_samples(ReadingGrade& reading, const model::CorrectedRow& row) {
 /// Returns true if a mistake is named.  Then the residuals, which are those of the survey as entered,
 /// blame good readings too; the search has judged every reading with the mistakes put right.
 bool has_mistakes(const model::SurveyCorrection& result) {
-    using Of = reading::FindingKind;
     return std::ranges::any_of(result.findings, [](const reading::Finding& finding) {
-        return finding.code != kUnlikeNeighboursCode &&
-               (finding.kind == Of::other_name || finding.kind == Of::reference ||
-                finding.kind == Of::step || finding.kind == Of::bad_reading);
+        return reading::is_mistake(finding) && finding.code != kUnlikeNeighboursCode;
     });
 }
 
@@ -216,7 +213,7 @@ text::Message doubt_of_all(const model::SurveyCorrection& result) {
 
 bool scatters_more_than_stated(const model::SurveyCorrection& result) {
     const auto* const network = result.as<model::NetworkPart>();
-    return network != nullptr && !network->passes_global_test().value_or(true);
+    return network != nullptr && network->scatters_more_than_stated();
 }
 
 std::string reason_text(const ReadingGrade& reading) {

@@ -9,7 +9,7 @@ std::string reading_name(const std::vector<model::CorrectedRow>& rows, std::size
     std::size_t before = 0;
     std::size_t in_all = 0;
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        if (rows[i].row.site != row.site || rows[i].row.occupation != row.occupation) continue;
+        if (!reading::is_same_stay(rows[i].row, row)) continue;
         ++in_all;
         if (i < index) ++before;
     }
@@ -24,7 +24,7 @@ std::string reading_name(const std::vector<model::CorrectedRow>& rows, std::size
 
 std::string stay_name(const reading::SurveyRow& row) {
     return row.instrument.empty()
-               ? fmt::format("{} ({})", row.site, row.occupation)
+               ? reading::stay_name(row.site, row.occupation)
                : fmt::format("{} ({}, {})", row.site, row.occupation, row.instrument);
 }
 

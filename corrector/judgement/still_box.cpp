@@ -52,14 +52,13 @@ std::vector<reading::Finding> set_ups_not_lifted(const std::vector<SurveyRow>& r
     const SurveyRow* before = nullptr;  // The used set-up before.
     for (const SurveyRow& row : rows) {
         if (row.is_excluded || row.is_flagged) continue;
-        const bool is_still = before != nullptr && before->site == row.site &&
-                              before->occupation == row.occupation &&
+        const bool is_still = before != nullptr && reading::is_same_stay(*before, row) &&
                               !has_moved(*before, row, kSetUpLevel_deg);
         before = &row;
         if (!is_still) continue;
         reading::Finding& finding = findings.emplace_back(
             reading::Finding{.kind = reading::FindingKind::not_lifted, .code = "not_lifted"});
-        set_stay(finding, row, row.start.value_or(row.time));
+        set_stay(finding, row);
         finding.text = text::message(
             "{} ({}): the box was not lifted before the set-up at {}, so its placement was not "
             "averaged and u is too small",

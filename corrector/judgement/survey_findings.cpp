@@ -54,13 +54,13 @@ Finding misfit(const whole_day::FitTest& test, const SurveyRow& row) {
     Finding finding{.kind = FindingKind::misfit};
     finding.code =
         fmt::format("misfit_{}", whole_day::kMisfitNames.at(static_cast<std::size_t>(test.misfit)));
-    const std::string stay = fmt::format("{} ({})", row.site, row.occupation);
+    const std::string stay = reading::stay_name(row.site, row.occupation);
     text::Message how;
     if (test.misfit == Misfit::curvature) {
         how = text::message("the residuals follow the square of the {}",
                             test.place == 0 ? text::message("temperature") : text::message("time"));
     } else {
-        set_stay(finding, row, row.start.value_or(row.time));
+        set_stay(finding, row);
         how = test.misfit == Misfit::step
                   ? text::message("the readings from {} on seem to be off by a step", stay)
                   : text::message("a few set-ups are much further off than the others, {} most",
@@ -233,24 +233,15 @@ Search search(const model::SurveyCorrection& result, const SearchedSurvey& surve
     return found;
 }
 
-/// Returns how many mistakes a list of findings has, a swap of names twice.
-std::ptrdiff_t count_mistakes(const std::vector<Finding>& findings) {
-    return std::ranges::count_if(findings, [](const Finding& finding) {
-        return finding.kind == FindingKind::other_name || finding.kind == FindingKind::reference ||
-               finding.kind == FindingKind::step || finding.kind == FindingKind::bad_reading;
-    });
-}
-
 /// Says that a drift of a higher degree in each loop leaves at least three mistakes fewer, if so.
 /// Its terms are more than those of the mistakes, so it proves nothing: s0 of both fits is given.
 /// @param right  the survey with the mistakes put right.
 /// @param known  findings that were known before the search.
 std::optional<Finding> curved_drift(const model::SurveyCorrection& result,
-                                    const SearchedSurvey& survey,
-                                    const model::AmendedSurvey& right,
+                                    const SearchedSurvey& survey, const model::AmendedSurvey& right,
                                     const std::vector<Finding>& known) {
     constexpr std::ptrdiff_t kFewestLess = 3;
-    const std::ptrdiff_t mistakes = count_mistakes(result.findings);
+    const auto mistakes = std::ranges::count_if(result.findings, reading::is_mistake);
     if (result.as<model::NetworkPart>() == nullptr || mistakes < kFewestLess) return std::nullopt;
     const auto corrected = [&](const std::vector<SurveyRow>& rows, model::SurveyOptions options) {
         options.model = result.model;
@@ -264,7 +255,7 @@ std::optional<Finding> curved_drift(const model::SurveyCorrection& result,
          ++degree) {
         model::SurveyCorrection curved = corrected(survey.rows, options);
         curved.findings = known;
-        const std::ptrdiff_t left = count_mistakes(find_mistakes(curved, survey));
+        const auto left = std::ranges::count_if(find_mistakes(curved, survey), reading::is_mistake);
         if (mistakes - left < kFewestLess) continue;
         return Finding{
             .kind = FindingKind::misfit,
@@ -294,7 +285,7 @@ std::string model_without_mistakes(const model::AmendedSurvey& right, const Sear
 std::vector<double> new_station_errors_mgal(const model::SurveyCorrection& result) {
     const auto* const network = result.as<model::NetworkPart>();
     const auto is_held = [&](const std::string& site) {
-        if (network != nullptr) return std::ranges::count(network->held_sites, site) > 0;
+        if (network != nullptr) return network->holds(site);
         return std::ranges::any_of(result.rows, [&](const model::CorrectedRow& row) {
             return row.is_used && row.row.reference && row.row.site == site;
         });

@@ -20,8 +20,7 @@ std::optional<Finding> base_not_revisited(const model::SurveyCorrection& result)
     const reading::SurveyRow* before = nullptr;
     for (const model::CorrectedRow& row : result.rows) {
         // The numbers may be wrong, but what was read in between is not.
-        const bool is_same = before != nullptr && before->site == row.row.site &&
-                             before->occupation == row.row.occupation;
+        const bool is_same = before != nullptr && reading::is_same_stay(*before, row.row);
         before = &row.row;
         if (is_same) continue;
         ++stays;

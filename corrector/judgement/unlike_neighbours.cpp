@@ -77,9 +77,7 @@ std::vector<reading::Finding> unlike_neighbours(const model::SurveyCorrection& r
         if (std::abs(off_mgal) <= std::max(kFar_mgal, terrain_mgal)) continue;
         std::vector<std::string> fitting;
         for (const text::Site& other : sites) {
-            if (!has_height(other) ||
-                std::ranges::count(result.stations, other.name, &model::StationValue::site) > 0)
-                continue;
+            if (!has_height(other) || result.station(other.name) != nullptr) continue;
             const double off = compare(stations, other, station.gravity, *site).off_mgal;
             if (off != 0.0 && std::abs(off) < kFits_mgal) fitting.push_back(other.name);
         }
@@ -89,7 +87,7 @@ std::vector<reading::Finding> unlike_neighbours(const model::SurveyCorrection& r
         if (row == result.rows.end()) continue;
         reading::Finding& finding = findings.emplace_back(reading::Finding{
             .kind = reading::FindingKind::other_name, .code = kUnlikeNeighboursCode});
-        set_stay(finding, row->row, row->row.start.value_or(row->row.time));
+        set_stay(finding, row->row);
         finding.size_mgal = off_mgal;
         finding.text = text::message(
             "{} is {} mGal from what its height suggests beside its neighbours: check its name, "

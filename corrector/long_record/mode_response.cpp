@@ -147,7 +147,8 @@ std::vector<ResponsePoint> response_by_modes(const std::vector<std::vector<doubl
             constexpr double kNeeded = kCyclesPerBlock * static_cast<double>(kFewestBlocks) + 1.0;
             point.refusal = text::message("fewer than {} cycles", text::fixed(kNeeded, 0));
             point.needed = text::message(
-                "a record of {} h", text::fixed(std::ceil(kNeeded * point.period_s / 3600.0), 0));
+                "a record of {} h",
+                text::fixed(std::ceil(kNeeded * point.period_s / kSecondsPerHour), 0));
             continue;
         }
         // Half a period at either end is left out, where the analytic signals are wrong.

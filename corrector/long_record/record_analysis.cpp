@@ -92,11 +92,11 @@ void remark_on_mode(RecordAnalysis& analysis, const std::optional<ChosenMode>& m
 }
 
 void remark_on_trend(RecordAnalysis& analysis, double record_s) {
-    constexpr double kLeast_s = 6.0 * 3600.0;
+    constexpr double kLeast_s = 6.0 * kSecondsPerHour;
     if (record_s < kLeast_s)
         analysis.remarks.push_back(
             text::message("trend: {} h are too short to show a trend; needed: 12 h or more",
-                          text::fixed(record_s / 3600.0, 1)));
+                          text::fixed(record_s / kSecondsPerHour, 1)));
     if (!analysis.two_paths[TwoPathTerm::warm_up].is_determined ||
         !analysis.two_paths[TwoPathTerm::drift].is_determined)
         analysis.remarks.push_back(text::message(

@@ -296,7 +296,7 @@ private:
         const std::size_t span = valid.places[end - 1] - valid.places[first] + 1;
         if (span < shortest_) {
             const auto hours = [this](std::size_t samples, int decimals) {
-                return text::fixed(static_cast<double>(samples) * record_.step_s / 3600.0,
+                return text::fixed(static_cast<double>(samples) * record_.step_s / kSecondsPerHour,
                                    decimals);
             };
             result_.refused.push_back(

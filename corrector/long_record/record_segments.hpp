@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "corrector/long_record/long_record.hpp"
+#include "protocol/core/units.hpp"
 #include "protocol/text/message.hpp"
 
 namespace a351::corrector::long_record {
@@ -44,6 +45,10 @@ struct RecordSegment {
 
     /// Returns n.
     [[nodiscard]] std::size_t size() const noexcept { return quantity.size(); }
+    /// Returns its length, h, at LongRecord::step_s.
+    [[nodiscard]] double hours(double step_s) const {
+        return static_cast<double>(size()) * step_s / kSecondsPerHour;
+    }
 };
 
 /// A part that is not analysed, from its first to its last sample.  Parts may overlap if several

@@ -121,12 +121,11 @@ TextTable segments_table(const RecordResult& result) {
                     text::tr("begins with")}};
     for (std::size_t k = 0; k < result.parts.segments.size(); ++k) {
         const RecordSegment& segment = result.parts.segments[k];
-        rows.push_back(
-            {std::to_string(k + 1) + (k == result.analysed && !result.tilt ? " *" : ""), to_rfc3339(segment.start),
-             text::fixed(
-                 static_cast<double>(segment.size()) * result.record.step_s / kSecondsPerHour, 2),
-             std::to_string(segment.bridged), std::to_string(segment.disturbed),
-             text::in_words(segment.begins_with)});
+        rows.push_back({std::to_string(k + 1) + (k == result.analysed && !result.tilt ? " *" : ""),
+                        to_rfc3339(segment.start),
+                        text::fixed(segment.hours(result.record.step_s), 2),
+                        std::to_string(segment.bridged), std::to_string(segment.disturbed),
+                        text::in_words(segment.begins_with)});
     }
     return rows;
 }
@@ -183,7 +182,8 @@ std::string noise_reading(const RecordResult& result) {
         const std::string value = text::fixed(unit * limits.value, digits);
         if (!levels.describes_record) return text::Message(value);
         if (std::isinf(limits.high))
-            return text::message("{} (from {}, no upper limit)", value, text::fixed(unit * limits.low, digits));
+            return text::message("{} (from {}, no upper limit)", value,
+                                 text::fixed(unit * limits.low, digits));
         return text::message("{} ({} to {})", value, text::fixed(unit * limits.low, digits),
                              text::fixed(unit * limits.high, digits));
     };
@@ -193,7 +193,8 @@ std::string noise_reading(const RecordResult& result) {
             "to stay: {}",
             levels.describes_record
                 ? text::message(", with 95 % limits")
-                : text::message(", only the nearest one, because a cycle or something else is in the record"),
+                : text::message(
+                      ", only the nearest one, because a cycle or something else is in the record"),
             level(levels.white_mgal_sqrt_s, 1.0, 2), level(levels.flicker_mgal, 1.0, 3),
             level(levels.walk_mgal_per_sqrt_s, std::sqrt(kSecondsPerHour), 3), stay);
     };
@@ -212,7 +213,8 @@ std::string tilt_reading(const RecordResult& result) {
     const TiltFit& tilt = *result.tilt;
     return text::tr(
         "Tilt of the axis {}: {} +- {} urad/degC, beside a straight line over time in each of {} "
-        "segments; corrected to {} degC. A sample of {} s scatters by {} urad. The constant bias of "
+        "segments; corrected to {} degC. A sample of {} s scatters by {} urad. The constant bias "
+        "of "
         "the axis is in the tilt, so that only changes have a meaning.",
         tilt.axis == 0 ? "x" : "y", text::fixed(tilt.slope_urad_per_degc, 2),
         text::fixed(tilt.slope_error_urad_per_degc, 2), result.parts.segments.size(),

@@ -157,7 +157,8 @@ ResponsePoint response_in(const Band& band, const TaperedSpectra& spectrum, doub
     if (point.period_s > record_s / kFewestCycles) {
         point.refusal = text::message("fewer than {} cycles", text::fixed(kFewestCycles, 0));
         point.needed = text::message(
-            "a record of {} h", text::fixed(std::ceil(kFewestCycles * point.period_s / 3600.0), 0));
+            "a record of {} h",
+            text::fixed(std::ceil(kFewestCycles * point.period_s / kSecondsPerHour), 0));
     } else if (is_noise) {
         point.refusal =
             text::message("no excitation: the temperature shows the thermometer's noise");

@@ -28,8 +28,8 @@ AmendedSurvey amended(const std::vector<reading::SurveyRow>& rows, const SurveyO
                 take_name(one.others, one.readings.front());
                 break;
             case Kind::step:
-                survey.options.steps.push_back(
-                    {time_before(rows, one.readings.front()), rows[one.readings.front()].instrument});
+                survey.options.steps.push_back({time_before(rows, one.readings.front()),
+                                                rows[one.readings.front()].instrument});
                 break;
         }
     std::ranges::sort(survey.options.steps, {}, &adjustment::Step::time);
@@ -46,8 +46,7 @@ std::size_t reading_before(const std::vector<reading::SurveyRow>& rows, std::siz
 
 UtcTime time_before(const std::vector<reading::SurveyRow>& rows, std::size_t after) {
     const reading::SurveyRow& before = rows[reading_before(rows, after)];
-    const UtcTime end = before.end.value_or(before.time);
-    const UtcTime start = rows[after].start.value_or(rows[after].time);
+    const UtcTime end = before.last_instant(), start = rows[after].first_instant();
     return end + (start - end) / 2;
 }
 

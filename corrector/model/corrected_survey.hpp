@@ -12,6 +12,7 @@
 /// own their content and have no references to the input.
 /// Methods and sources: corrector/methods.md.
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -118,6 +119,11 @@ struct Fit {
     /// Values that only one model gives.
     std::variant<std::monostate, NetworkPart, WholeDayPart> own;
 
+    /// Returns the value of a station; null if the survey has none.
+    [[nodiscard]] const StationValue* station(const std::string& site) const {
+        const auto found = std::ranges::find(stations, site, &StationValue::site);
+        return found == stations.end() ? nullptr : &*found;
+    }
     /// Returns the values of one model; null if another model was fitted.  The pointer is into this
     /// object.
     template <class Part>

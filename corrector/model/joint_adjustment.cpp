@@ -178,7 +178,7 @@ whole_day::WhiteSurvey white_survey(const Prepared& survey,
 /// Returns true if a test says that the model does not fit the readings.
 bool is_misfit(const Fit& fit) {
     if (const auto* const network = fit.as<NetworkPart>())
-        return !network->passes_global_test().value_or(true);
+        return network->scatters_more_than_stated();
     const auto* const day = fit.as<WholeDayPart>();
     return day != nullptr &&
            std::ranges::any_of(day->fit_tests,

@@ -17,13 +17,12 @@ using adjustment::AdjustedSurvey;
 
 using ModelOf = std::function<const LinearModel*(const std::vector<bool>& in_use)>;
 
-std::vector<std::string> stations_in(const SurveyProblem& problem,
-                                     const std::vector<bool>& in_use) {
-    std::vector<std::string> names;
+/// Returns the rows in use without those of one or two stations.
+std::vector<bool> without_stations(const SurveyProblem& problem, std::vector<bool> in_use,
+                                   const std::string& a, const std::string& b) {
     for (std::size_t i = 0; i < in_use.size(); ++i)
-        if (in_use[i] && std::ranges::find(names, problem.rows[i].site) == names.end())
-            names.push_back(problem.rows[i].site);
-    return names;
+        if (problem.rows[i].site == a || problem.rows[i].site == b) in_use[i] = false;
+    return in_use;
 }
 
 adjustment::SurveyEquations equations_of(const LinearModel& model, const SurveyProblem& problem,
@@ -52,10 +51,8 @@ std::optional<std::vector<double>> station_left_out_mgal(const ModelOf& model_of
                                                          const SurveyProblem& problem,
                                                          const std::vector<bool>& in_use) {
     std::vector<double> errors(in_use.size());
-    for (const std::string& station : stations_in(problem, in_use)) {
-        std::vector<bool> others = in_use;
-        for (std::size_t i = 0; i < others.size(); ++i)
-            if (problem.rows[i].site == station) others[i] = false;
+    for (const std::string& station : station_names(problem.rows, in_use)) {
+        const std::vector<bool> others = without_stations(problem, in_use, station, station);
         const LinearModel* const chosen = model_of(others);
         if (chosen == nullptr) return std::nullopt;
         const AdjustedSurvey adjusted = adjust_linear(*chosen, problem, others);
@@ -98,10 +95,7 @@ FitResult fit(const LinearModel& model, const SurveyProblem& problem, const RowC
     result.score = score_linear_model(model, problem, choice.in_use);
     set_loo_interval(result, problem.options.seed);
     const auto without = [&](const std::string& a, const std::string& b) {
-        std::vector<bool> others = choice.in_use;
-        for (std::size_t i = 0; i < others.size(); ++i)
-            if (problem.rows[i].site == a || problem.rows[i].site == b) others[i] = false;
-        return adjust_linear(model, problem, others);
+        return adjust_linear(model, problem, without_stations(problem, choice.in_use, a, b));
     };
     set_left_out_stations(result, adjusted, choice, without);
     return result;

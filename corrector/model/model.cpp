@@ -39,10 +39,12 @@ std::vector<CorrectedRow> uncorrected(const SurveyProblem& problem, const RowCho
     return rows;
 }
 
-std::vector<std::string> station_names(const std::vector<reading::SurveyRow>& rows) {
+std::vector<std::string> station_names(const std::vector<reading::SurveyRow>& rows,
+                                       const std::vector<bool>& among) {
     std::vector<std::string> names;
-    for (const reading::SurveyRow& row : rows)
-        if (std::ranges::find(names, row.site) == names.end()) names.push_back(row.site);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        if ((among.empty() || among[i]) && std::ranges::find(names, rows[i].site) == names.end())
+            names.push_back(rows[i].site);
     return names;
 }
 

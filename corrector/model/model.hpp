@@ -60,7 +60,9 @@ struct RowChoice {
                                     const std::vector<std::string>& datum, bool use_flags);
 
 /// Returns the names of the rows' stations, in order of their first row.
-[[nodiscard]] std::vector<std::string> station_names(const std::vector<reading::SurveyRow>& rows);
+/// @param among  rows that count; empty: all.
+[[nodiscard]] std::vector<std::string> station_names(const std::vector<reading::SurveyRow>& rows,
+                                                     const std::vector<bool>& among = {});
 
 /// A fit, or the reason why the rows do not allow one.
 using FitResult = std::variant<Fit, Refusal>;

@@ -136,9 +136,9 @@ void leave_out_untied(Fit& result, const AdjustedSurvey& adjusted) {
             rows.push_back(std::move(result.rows[i]));
             continue;
         }
-        names.push_back(fmt::format("{} ({})", row.site, row.occupation));
-        result.left_out.push_back({row.site, row.occupation, row.start.value_or(row.time),
-                                   row.end.value_or(row.time), "no reading of its loop in use"});
+        names.push_back(reading::stay_name(row.site, row.occupation));
+        result.left_out.push_back({row.site, row.occupation, row.first_instant(),
+                                   row.last_instant(), "no reading of its loop in use"});
     }
     result.rows = std::move(rows);
     if (names.empty()) return;
@@ -155,7 +155,7 @@ FitResult fit_network(const SurveyProblem& problem, const RowChoice& choice) {
     result.score = score_of(network, problem.options.priors.reading_sd_mgal);
     if (problem.options.network.fits_admittance)
         result.remarks.push_back(admittance_remark(result));
-    if (network.part.passes_global_test().value_or(true))
+    if (!network.part.scatters_more_than_stated())
         for (StationValue& station : result.stations) {
             station.coverage_factor = kCoverageFactor;
             station.dof = static_cast<double>(network.part.dof);

@@ -2,6 +2,7 @@
 /// @file
 /// Rows and global test of an adjusted network.
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -38,6 +39,10 @@ struct NetworkPart {
     double chi_square_low = 0.0,
            chi_square_high = 0.0;  ///< Limits of the global test; 0 if dof = 0.
 
+    [[nodiscard]] bool holds(const std::string& site) const {
+        return std::ranges::find(held_sites, site) != held_sites.end();
+    }
+
     /// Returns s0 = sqrt(v^T W v / dof), the ratio of the standard deviations a posteriori and a
     /// priori; absent if dof = 0.
     ///
@@ -51,6 +56,10 @@ struct NetworkPart {
     [[nodiscard]] std::optional<bool> passes_global_test() const {
         if (dof == 0) return std::nullopt;
         return weighted_square <= chi_square_high;
+    }
+    /// Returns true if v^T W v is above the upper limit: readings scatter more than stated.
+    [[nodiscard]] bool scatters_more_than_stated() const {
+        return !passes_global_test().value_or(true);
     }
     /// Returns true if v^T W v is below the lower limit: readings scatter less than stated.
     [[nodiscard]] bool scatters_less_than_stated() const {

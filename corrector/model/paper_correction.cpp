@@ -38,11 +38,10 @@ Score score_paper(const SurveyProblem& problem, const RowChoice& choice) {
 }
 
 /// Sets the stations: means of their accepted rows, or of all their rows if none is accepted.
-void set_stations(Fit& result, const RowChoice& choice, const TemperatureLine& line) {
+void set_stations(Fit& result, const RowChoice& choice, const Line& line) {
     for (const CorrectedRow& first : result.rows) {
         const std::string& site = first.row.site;
-        if (std::ranges::find(result.stations, site, &StationValue::site) != result.stations.end())
-            continue;
+        if (result.station(site) != nullptr) continue;
         StationValue station;
         station.site = site;
         station.reference = first.row.reference;
@@ -79,7 +78,7 @@ void set_stations(Fit& result, const RowChoice& choice, const TemperatureLine& l
 
 FitResult fit_paper(const SurveyProblem& problem, const RowChoice& choice) {
     const std::vector<reading::SurveyRow>& rows = problem.rows;
-    const std::optional<TemperatureLine> line = fit_temperature_line(rows, choice.in_use);
+    const std::optional<Line> line = fit_temperature_line(rows, choice.in_use);
     if (!line)
         return Refusal{fmt::format("{} rows with a reference do not determine it",
                                    std::ranges::count(choice.in_use, true)),
@@ -126,7 +125,7 @@ FitResult fit_paper(const SurveyProblem& problem, const RowChoice& choice) {
 
 }  // namespace
 
-std::optional<Line> fit_line(const std::vector<double>& x, const std::vector<double>& y) {
+std::optional<Line> line_through(const std::vector<double>& x, const std::vector<double>& y) {
     const auto n = static_cast<Eigen::Index>(x.size());
     if (n < 2) return std::nullopt;
     const Eigen::Map<const Eigen::VectorXd> of_x(x.data(), n), of_y(y.data(), n);
@@ -159,8 +158,8 @@ std::vector<double> differences_mgal(const std::vector<reading::SurveyRow>& rows
     return differences;
 }
 
-std::optional<TemperatureLine> fit_temperature_line(const std::vector<reading::SurveyRow>& rows,
-                                                    const std::vector<bool>& in_use) {
+std::optional<Line> fit_temperature_line(const std::vector<reading::SurveyRow>& rows,
+                                         const std::vector<bool>& in_use) {
     const std::vector<double> differences = differences_mgal(rows);
     std::vector<double> x, y;
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -168,11 +167,11 @@ std::optional<TemperatureLine> fit_temperature_line(const std::vector<reading::S
         x.push_back(rows[i].temperature.value());
         y.push_back(differences[i]);
     }
-    return fit_line(x, y);
+    return line_through(x, y);
 }
 
 std::vector<double> temperature_corrected_mgal(const std::vector<reading::SurveyRow>& rows,
-                                               const TemperatureLine& line) {
+                                               const Line& line) {
     std::vector<double> corrected;
     for (const reading::SurveyRow& row : rows) {
         // Equation (3), with the reading where the publication prints the reference.

@@ -58,30 +58,27 @@ struct Line {
 /// Fits a line.
 /// @param x, y  (n) finite.
 /// @return std::nullopt with fewer than two points, or for a constant x.
-[[nodiscard]] std::optional<Line> fit_line(const std::vector<double>& x,
-                                           const std::vector<double>& y);
-
-/// The line D = a T + b: slope mGal/degC, about -29 for the published rows, and b at 0 degC, mGal.
-/// It is the effect on the reading, which is subtracted.  b is 42 degC outside the data, so it is known
-/// to a few mGal only.
-using TemperatureLine = Line;
+[[nodiscard]] std::optional<Line> line_through(const std::vector<double>& x,
+                                               const std::vector<double>& y);
 
 /// Returns the Difference D_i = G_i - g_i - tide_i of every row (n), mGal; NaN without a reference.
 [[nodiscard]] std::vector<double> differences_mgal(const std::vector<reading::SurveyRow>& rows);
 
-/// Fits D = a T + b by least squares.
+/// Fits the line D = a T + b by least squares: a in mGal/degC, about -29 for the published rows, and b
+/// at 0 degC, mGal.  It is the effect on the reading, which is subtracted.  b is 42 degC outside the
+/// data, so it is known to a few mGal only.
 ///
 /// There are no priors.  Two rows determine the line without a residual.
 /// @param rows    (n), finite.
 /// @param in_use  (n) rows of the fit; rows without a reference are left out as well.
 /// @return std::nullopt with fewer than two such rows or a constant temperature.
-[[nodiscard]] std::optional<TemperatureLine> fit_temperature_line(
-    const std::vector<reading::SurveyRow>& rows, const std::vector<bool>& in_use);
+[[nodiscard]] std::optional<Line> fit_temperature_line(const std::vector<reading::SurveyRow>& rows,
+                                                       const std::vector<bool>& in_use);
 
 /// Returns Corrected (1) of every row (n): G1_i = G_i - tide_i - (a T_i + b), mGal.  No reference
 /// is needed.
 [[nodiscard]] std::vector<double> temperature_corrected_mgal(
-    const std::vector<reading::SurveyRow>& rows, const TemperatureLine& line);
+    const std::vector<reading::SurveyRow>& rows, const Line& line);
 
 /// Returns the errors reference - corrected of every row (n), mGal; NaN without a reference.
 /// @param corrected_mgal  (n) corrected values.

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "corrector/model/linear_models.hpp"
 #include "corrector/model/model.hpp"
@@ -40,10 +39,7 @@ struct Chosen {
 
 /// Returns the number of stations with a row in use.
 std::size_t used_stations(const SurveyProblem& problem, const RowChoice& rows) {
-    std::set<std::string> names;
-    for (std::size_t i = 0; i < problem.rows.size(); ++i)
-        if (rows.in_use[i]) names.insert(problem.rows[i].site);
-    return names.size();
+    return station_names(problem.rows, rows.in_use).size();
 }
 
 /// Chooses one of the linear models; nullopt if the known stations are too few to compare them.
@@ -157,7 +153,8 @@ void remark_unused(Fit& result, const Model& model, const SurveyOptions& options
     std::vector<std::string> used;
     for (const Coefficient& coefficient : result.coefficients)
         if (coefficient.prior) used.push_back(coefficient.name);
-    for (const auto& scale : result.scales) used.push_back(adjustment::scale_name(scale.instrument));
+    for (const auto& scale : result.scales)
+        used.push_back(adjustment::scale_name(scale.instrument));
     std::vector<std::string> unused = adjustment::unused_priors(options.priors, used);
     for (std::string& name : unused) name = "prior " + name;
     const NetworkOptions usual;
@@ -198,7 +195,7 @@ text::Message temperature_remark(const std::vector<CorrectedRow>& rows,
         const double outside_degc = std::max(low_degc - degc, degc - high_degc);
         if (outside_degc <= kOutsideTemperature_degc) continue;
         most_degc = std::max(most_degc, outside_degc);
-        names.push_back(fmt::format("{} ({})", row.row.site, row.row.occupation));
+        names.push_back(reading::stay_name(row.row.site, row.row.occupation));
     }
     if (names.empty()) return {};
     return text::message(

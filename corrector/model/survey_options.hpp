@@ -40,8 +40,8 @@ struct SurveyOptions {
     /// True: flagged rows are not in the fit.  Excluded rows never are.
     bool use_flags = true;
     NetworkOptions network = {};  ///< Options of `network`.
-    std::uint64_t seed = 1;  ///< Seed of the bootstrap over stations.
-    /// Priors of the linear models and the network; `paper` uses none, and `day` refuses them.
+    std::uint64_t seed = 1;       ///< Seed of the bootstrap over stations.
+    /// Priors of the linear models and the network; `paper` uses none, and `day` refuses those of slopes.
     adjustment::Priors priors = {};
     /// Calibration of the unit.  correct_survey() uses it only as prior of `day`; for other models
     /// call correct_with_calibration().

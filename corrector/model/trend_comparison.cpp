@@ -19,7 +19,7 @@ std::string trend_comparison_text(const SurveyCorrection& result) {
         squares += difference * difference;
         if (std::abs(difference) < std::abs(largest)) continue;
         largest = difference;
-        where = fmt::format("{} ({})", row.row.site, row.row.occupation);
+        where = reading::stay_name(row.row.site, row.row.occupation);
     }
     if (count == 0.0) return {};
     return fmt::format("trends, smoother minus EEMD: mean {}, rms {}, largest {} mGal at {}\n",

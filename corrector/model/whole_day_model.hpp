@@ -20,7 +20,7 @@ namespace a351::corrector::model {
 /// in every set-up.
 ///
 /// The bin is required of flagged and excluded rows too.  If several things are missing, the first
-/// of this list is given.  whole_day_model() refuses priors in addition.
+/// of this list is given.  whole_day_model() refuses priors of slopes in addition.
 /// @param rows    (n), one per set-up, in the order of the record.
 /// @param in_use  (n) rows of the fit, each with a reference.
 /// @param day     record of these rows; null: there is none.
@@ -56,7 +56,7 @@ namespace a351::corrector::model {
 /// u_corrected within 1 % (whole_day_model_test.cpp); within 0.02 mGal on simulated days
 /// (tests/bench/survey_accuracy.py).
 ///
-/// It refuses as day_refusal(), and if the options have priors, which it would ignore.
+/// It refuses as day_refusal(), and if the options have priors of slopes, which it would ignore.
 ///
 /// score() is nullopt where it refuses.
 ///

@@ -22,6 +22,11 @@ std::string_view to_text(FindingKind kind) {
 
 bool is_remark(const Finding& finding) { return finding.kind >= FindingKind::not_visited; }
 
+bool is_mistake(const Finding& finding) {
+    return finding.kind == FindingKind::other_name || finding.kind == FindingKind::reference ||
+           finding.kind == FindingKind::step || finding.kind == FindingKind::bad_reading;
+}
+
 std::string in_minutes(Nanoseconds time) {
     return fmt::format("{:.1f} min", std::chrono::duration<double, std::ratio<60>>(time).count());
 }
@@ -31,6 +36,10 @@ void set_stay(Finding& finding, const SetUp& set_up, UtcTime time) {
     finding.occupation = set_up.occupation;
     finding.key = set_up.key;
     finding.time = time;
+}
+
+void set_stay(Finding& finding, const SurveyRow& row) {
+    set_stay(finding, row, row.first_instant());
 }
 
 std::string amendment_head(std::string_view kind, const ListedSetUp& listed) {

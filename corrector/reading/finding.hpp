@@ -81,11 +81,16 @@ struct Finding {
 /// Returns true for the remarks above.
 [[nodiscard]] bool is_remark(const Finding& finding);
 
+/// Returns true for other_name, reference, step and bad_reading.
+[[nodiscard]] bool is_mistake(const Finding& finding);
+
 /// Returns a duration as "12.3 min".
 [[nodiscard]] std::string in_minutes(Nanoseconds time);
 
 /// Sets the stay of a finding.
 void set_stay(Finding& finding, const SetUp& set_up, UtcTime time);
+/// The same, from the first instant of a row on.
+void set_stay(Finding& finding, const SurveyRow& row);
 
 /// Returns the first lines of an amendment: [[KIND]], site, occupation and, if the stay has several,
 /// set_up.

@@ -47,15 +47,12 @@ std::vector<signal::MotionSample> motion_of(const OccupationRecord& record,
 /// Returns the entries at begin and end of a set-up.  Within a stay they are *Next set-up*.
 signal::EnteredSetUp entered(const std::vector<OccupationWindow>& windows, std::size_t i) {
     const OccupationWindow& window = windows[i];
-    const auto is_of_stay = [&](const OccupationWindow& other) {
-        return other.site == window.site && other.occupation == window.occupation;
-    };
     signal::EnteredSetUp set_up{window.start, window.end};
     set_up.not_moved_until = window.not_moved_until;
-    set_up.began_with_next_set_up = i > 0 && is_of_stay(windows[i - 1]);
-    if (i + 1 < windows.size() && is_of_stay(windows[i + 1]))
+    set_up.began_with_next_set_up = i > 0 && is_same_stay(windows[i - 1], window);
+    if (i + 1 < windows.size() && is_same_stay(windows[i + 1], window))
         set_up.ended_by = signal::SetUpEnd::next_set_up;
-    else if (std::ranges::count(window.notes, "no-stop") > 0)
+    else if (window.has_note("no-stop"))
         set_up.ended_by = signal::SetUpEnd::not_stopped;
     else if (window.is_last)
         set_up.ended_by = signal::SetUpEnd::running;
@@ -122,7 +119,7 @@ std::optional<MovedStay> moved_stay(const std::vector<OccupationWindow>& windows
     using signal::MoveMeaning;
     const OccupationWindow& window = windows[i];
     for (const char* const seen : {"retimed", "excluded", "included"})
-        if (std::ranges::count(window.notes, seen) > 0) return std::nullopt;
+        if (window.has_note(seen)) return std::nullopt;
     const auto samples = motion_of(record, axes);
     const signal::JudgedSetUp judged = signal::judge_moves(samples, entered(windows, i));
     const signal::StillPart part = judged.part;
@@ -130,7 +127,7 @@ std::optional<MovedStay> moved_stay(const std::vector<OccupationWindow>& windows
     MovedStay moved{window, {}};
     OccupationWindow& still = moved.still;
     // A part of a set-up is only cut where it was divided: no amendment can name it.
-    const bool is_divided = std::ranges::count(window.notes, "divided") > 0;
+    const bool is_divided = window.has_note("divided");
     if (part.first == part.end) {
         if (is_divided) return std::nullopt;
         still.notes.emplace_back("shaken");

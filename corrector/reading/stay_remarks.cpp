@@ -18,10 +18,6 @@ constexpr std::size_t kFewestCompared = 5;
 constexpr std::chrono::seconds kLeastError(1);
 constexpr int kLeastErrorQuality_percent = 40;  // timing_quality_percent() of kLeastError
 
-bool has_note(const OccupationWindow& window, const char* note) {
-    return std::ranges::count(window.notes, note) > 0;
-}
-
 Finding remark(FindingKind kind, const OccupationWindow& window, UtcTime time) {
     Finding finding{.kind = kind, .code = std::string(to_text(kind))};
     set_stay(finding, window, time);
@@ -31,10 +27,8 @@ Finding remark(FindingKind kind, const OccupationWindow& window, UtcTime time) {
 void add_missing_stops(std::vector<Finding>& findings,
                        const std::vector<OccupationWindow>& windows) {
     for (const OccupationWindow& window : windows) {
-        if (!has_note(window, "no-stop")) continue;
-        if (std::ranges::any_of(window.notes, [](const std::string& note) {
-                return note == "moved" || note == "retimed" || note == "excluded";
-            }))
+        if (!window.has_note("no-stop") || window.has_note("moved") || window.has_note("retimed") ||
+            window.has_note("excluded"))
             continue;
         Finding& finding = findings.emplace_back(remark(FindingKind::no_stop, window, window.end));
         if (window.is_last) finding.code = "no_stop_last";
@@ -59,7 +53,7 @@ void add_short_stays(std::vector<Finding>& findings, const std::vector<Occupatio
         if (is_new) stays.push_back({&window});
         Stay& stay = stays[place->second];
         stay.length += window.end - window.start;
-        if (window.is_last || has_note(window, "excluded") || has_note(window, "divided"))
+        if (window.is_last || window.has_note("excluded") || window.has_note("divided"))
             stay.is_compared = false;
     }
     std::erase_if(stays, [](const Stay& stay) { return !stay.is_compared; });

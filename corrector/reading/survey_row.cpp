@@ -205,6 +205,10 @@ std::optional<Metres> instrument_height(const text::CsvTable& table, std::size_t
     return height_m ? std::optional(Metres(*height_m)) : std::nullopt;
 }
 
+std::string stay_name(const std::string& site, int occupation) {
+    return fmt::format("{} ({})", site, occupation);
+}
+
 const RecordSummary& SurveyRow::axes_for(std::string_view wanted_by) const {
     if (record) return *record;
     throw InputError(fmt::format("{}: {} ({}) has no mean_x_g; allowed: rows from records",
@@ -245,8 +249,8 @@ std::vector<SurveyRow> read_observations(const std::filesystem::path& file,
         if (table.has_column("instrument_height_m"))
             row.instrument_height = instrument_height(table, i);
         if (table.has_column("pressure_hpa"))
-            // On Mount Everest it is 330 hPa; 1778 hPa is the standard atmosphere at -5000 m.
-            row.pressure_hpa = table.number_if_given(i, "pressure_hpa", 300.0, 1800.0);
+            row.pressure_hpa =
+                table.number_if_given(i, "pressure_hpa", kLeastPressure_hpa, kGreatestPressure_hpa);
         if (i > 0 && row.has_temperature != rows.front().has_temperature)
             table.refuse(i, "temperature_degc", "given in some rows only", "all rows or none");
         if (std::ranges::any_of(rows, [&](const SurveyRow& other) {

@@ -48,6 +48,10 @@ struct SetUp {
     std::string given_tide_system = {};
     std::optional<Metres> instrument_height =
         {};  ///< Height of the sensor above the mark, if given.
+
+    [[nodiscard]] bool has_note(std::string_view note) const {
+        return std::ranges::find(notes, note) != notes.end();
+    }
 };
 
 /// The averages of one occupation, or one set-up of it, over an interval without disturbance.
@@ -87,6 +91,10 @@ struct SurveyRow : SetUp {
     /// averages.
     std::optional<RecordSummary> record;
 
+    /// Return the ends of the averaging interval; without one, its middle.
+    [[nodiscard]] UtcTime first_instant() const { return start.value_or(time); }
+    [[nodiscard]] UtcTime last_instant() const { return end.value_or(time); }
+
     /// Returns the mean without the effect of the tide.
     [[nodiscard]] MilliGal reduced() const { return acceleration - tide; }
 
@@ -121,9 +129,21 @@ struct LeftOut {
     std::string key = {};  ///< Key of the stay in the event log; empty if not from there.
 };
 
+/// Returns true for set-ups, findings or whatever else has a site and an occupation, of the same stay.
+[[nodiscard]] bool is_same_stay(const auto& one, const auto& other) {
+    return one.site == other.site && one.occupation == other.occupation;
+}
+
+/// Returns the name of a stay, as "No.5 (2)".
+[[nodiscard]] std::string stay_name(const std::string& site, int occupation);
+
 /// Greatest height of a sensor above or below its mark, m.  Reason: a gravimeter on its tripod is
 /// below 1 m, and the gradient is not constant over more than a few metres.
 inline constexpr double kGreatestInstrumentHeight_m = 10.0;
+
+/// Limits of an air pressure, hPa.  Reason: on Mount Everest it is 330; the standard atmosphere has 1778
+/// at -5000 m, the lowest altitude of a site.
+inline constexpr double kLeastPressure_hpa = 300.0, kGreatestPressure_hpa = 1800.0;
 
 /// Returns the cell instrument_height_m of a row, if it is not empty.
 /// @param table  must have the column.
@@ -139,7 +159,7 @@ inline constexpr double kGreatestInstrumentHeight_m = 10.0;
 ///
 /// Permitted are 900 000 to 1 100 000 mGal, -60 to 100 degC and a tide of -1 to 1 mGal.  The number
 /// of the stay is from 1 to 10^6, and `outlier` is 0 or 1 (1 is flagged).  The height is -10 to 10 m,
-/// the pressure 300 to 1100 hPa, and both can be empty.  Other cells must not be empty;
+/// the pressure 300 to 1800 hPa, and both can be empty.  Other cells must not be empty;
 /// other columns are ignored.  `time` is the middle of the average; `start`, `end` and `record`
 /// stay absent.
 ///

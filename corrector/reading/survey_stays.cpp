@@ -16,8 +16,7 @@ namespace {
 std::optional<int> set_up_number(const std::vector<OccupationWindow>& windows, std::size_t i) {
     int number = 1, count = 0;
     for (std::size_t k = 0; k < windows.size(); ++k) {
-        if (windows[k].site != windows[i].site || windows[k].occupation != windows[i].occupation)
-            continue;
+        if (!is_same_stay(windows[k], windows[i])) continue;
         ++count;
         if (k < i) ++number;
     }

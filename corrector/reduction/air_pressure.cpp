@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "corrector/reading/survey_row.hpp"
 #include "protocol/archive/archive_reader.hpp"
 #include "protocol/archive/sds.hpp"
 #include "protocol/core/input_error.hpp"
@@ -54,7 +55,7 @@ AirPressure AirPressure::read(const PressureChannel& channel, UtcTime from, UtcT
             const UtcTime time = segment.time_of(i);
             if (!pressure.times_.empty() && time <= pressure.times_.back()) continue;
             const double hpa = static_cast<double>(segment.counts[i]) / channel.counts_per_hpa;
-            if (!(hpa >= kLeastPressure_hpa && hpa <= kGreatestPressure_hpa)) {
+            if (!(hpa >= reading::kLeastPressure_hpa && hpa <= reading::kGreatestPressure_hpa)) {
                 if (bad_count++ == 0)
                     first_bad =
                         text::message("{} hPa at {}", text::fixed(hpa, 2), to_rfc3339(time));
@@ -67,8 +68,8 @@ AirPressure AirPressure::read(const PressureChannel& channel, UtcTime from, UtcT
         throw InputError(fmt::format(
             "{}: {}: not a pressure on the ground, like all others; allowed: {} to {}, with the "
             "right pressure_counts_per_hpa",
-            channel.name(), first_bad, text::fixed(kLeastPressure_hpa, 0),
-            text::fixed(kGreatestPressure_hpa, 0)));
+            channel.name(), first_bad, text::fixed(reading::kLeastPressure_hpa, 0),
+            text::fixed(reading::kGreatestPressure_hpa, 0)));
     if (pressure.times_.size() < 2)
         throw InputError(fmt::format(
             "{}: no samples in {} between {} and {}; allowed: a channel with samples in the survey",
@@ -85,8 +86,8 @@ AirPressure AirPressure::read(const std::filesystem::path& file) {
     AirPressure pressure;
     pressure.times_ = table.ascending_times("time");
     for (std::size_t row = 0; row < table.row_count(); ++row)
-        pressure.values_hpa_.push_back(
-            table.number(row, "pressure_hpa", kLeastPressure_hpa, kGreatestPressure_hpa));
+        pressure.values_hpa_.push_back(table.number(
+            row, "pressure_hpa", reading::kLeastPressure_hpa, reading::kGreatestPressure_hpa));
     if (pressure.times_.size() < 2)
         throw InputError(file.string() + ": too few rows; allowed: 2 or more");
     return pressure;

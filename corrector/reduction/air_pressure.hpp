@@ -17,10 +17,6 @@
 
 namespace a351::corrector::reduction {
 
-/// Limits of a pressure, hPa.  Reason: on Mount Everest it is 330; the standard atmosphere has 1778 at
-/// -5000 m, the lowest altitude of a site.
-inline constexpr double kLeastPressure_hpa = 300.0, kGreatestPressure_hpa = 1800.0;
-
 /// Longest step between two rows.  Reason: weather changes by up to 3 hPa in it, which is 0.001 mGal.
 inline constexpr std::chrono::hours kLongestPressureStep{3};
 

@@ -58,7 +58,7 @@ std::vector<Stay> stays_of(const std::vector<reading::SurveyRow>& rows,
         return *stay;
     };
     for (std::size_t i = 0; i < rows.size(); ++i)
-        stay_of(rows[i].key, rows[i].site, rows[i].occupation, rows[i].start.value_or(rows[i].time))
+        stay_of(rows[i].key, rows[i].site, rows[i].occupation, rows[i].first_instant())
             .rows.push_back(i);
     for (std::size_t i = 0; i < left_out.size(); ++i)
         stay_of(left_out[i].key, left_out[i].site, left_out[i].occupation, left_out[i].start)
@@ -86,7 +86,7 @@ double own_part(double u_set_up, double u_station, std::size_t n, std::size_t co
 void add_value(Json& json, const Stay& stay, const model::SurveyCorrection& result,
                std::optional<MilliGal> u_evening, double factor, bool is_named) {
     if (stay.rows.empty()) return;
-    const model::StationValue* const station = result::find_station(result, stay.site);
+    const model::StationValue* const station = result.station(stay.site);
     const auto& reference = result.rows[stay.rows.front()].row.reference;
     double sum = 0.0, least = HUGE_VAL, most = -HUGE_VAL;
     std::size_t known = 0;
@@ -211,7 +211,7 @@ Json to_json(const GravitySoFar& so_far) {
             add_value(one, stay, *so_far.result,
                       is_running ? so_far.u_evening : std::optional<MilliGal>(), factor,
                       std::ranges::any_of(contradictions, [&](const auto& named) {
-                          return named.site == stay.site && named.occupation == stay.occupation;
+                          return reading::is_same_stay(named, stay);
                       }));
         else
             one["missing_parts"] = json["reason_parts"];

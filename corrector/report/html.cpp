@@ -156,7 +156,7 @@ void add_table(pugi::xml_node parent, const std::string& caption, std::string_vi
 void add_table(pugi::xml_node parent, const std::string& caption, const result::Table& table) {
     HtmlCells headings = table.headings;
     for (std::string& heading : headings) {
-        heading = text::translated(heading, text::language());
+        heading = text::translated(heading);
         if (const auto at = heading.find("degC"); at != std::string::npos)
             heading.replace(at, 4, "\u00B0C");
     }

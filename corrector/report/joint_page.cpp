@@ -101,8 +101,8 @@ struct Advice {
 /// Adds a reason if two days disagree about a station by more than their uncertainties explain.
 void compare_days(Advice& advice, const model::RecordedSurvey& a, const model::RecordedSurvey& b,
                   const std::string& site) {
-    const model::StationValue* const of_a = result::find_station(*a.result, site);
-    const model::StationValue* const of_b = result::find_station(*b.result, site);
+    const model::StationValue* const of_a = a.result->station(site);
+    const model::StationValue* const of_b = b.result->station(site);
     if (of_a == nullptr || of_b == nullptr) return;
     const result::DayValue value_a = result::day_value(*of_a), value_b = result::day_value(*of_b);
     if (!value_a.u || !value_b.u) return;
@@ -125,7 +125,7 @@ Advice advice_on(const std::string& site, const std::vector<model::RecordedSurve
     Advice advice;
     std::vector<std::string> reasons;
     for (const model::RecordedSurvey& day : days) {
-        if (result::find_station(*day.result, site) == nullptr) continue;
+        if (day.result->station(site) == nullptr) continue;
         const judgement::ReadingGrade of_day =
             judgement::grade_of_station(*day.result, judgement::grade_readings(*day.result), site);
         advice.grade = std::min(advice.grade, of_day.grade);
@@ -154,11 +154,9 @@ void add_joint_actions(pugi::xml_node parent, const std::vector<model::RecordedS
         const auto grade = static_cast<std::size_t>(advice.grade);
         sites.at(grade).push_back(station.site);
         if (!advice.reasons.empty())
-            reasons.at(grade).push_back(
-                {station.site,
-                 std::string(
-                     text::translated(judgement::grade_name(advice.grade), text::language())),
-                 text::joined(advice.reasons, "; ")});
+            reasons.at(grade).push_back({station.site,
+                                         text::translated(judgement::grade_name(advice.grade)),
+                                         text::joined(advice.reasons, "; ")});
     }
     const auto add_group = [&](judgement::Grade grade, const std::string& what) {
         const auto& group = sites.at(static_cast<std::size_t>(grade));
@@ -206,7 +204,7 @@ std::optional<DayScatter> scatter_of_days(const std::vector<model::RecordedSurve
         if (station.day_count < 2) continue;
         std::vector<const model::StationValue*> values;
         for (const model::RecordedSurvey& day : days)
-            if (const auto* const value = result::find_station(*day.result, station.site))
+            if (const auto* const value = day.result->station(station.site))
                 values.push_back(value);
         const auto n = static_cast<double>(values.size());
         double mean = 0.0;  // of the differences from the first day

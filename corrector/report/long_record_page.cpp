@@ -20,7 +20,7 @@ void add_text_table(pugi::xml_node parent, const std::string& caption, std::stri
 
 void add_record_head(pugi::xml_node parent, const long_record::RecordResult& result) {
     const long_record::RecordSegment& segment = result.segment();
-    const double hours = static_cast<double>(segment.size()) * result.record.step_s / 3600.0;
+    const double hours = segment.hours(result.record.step_s);
     const std::string& unit = segment.serial_number;
     add(parent, "p",
         text::tr("Analysed: {}{} h from {}, a sample every {} s{}.",

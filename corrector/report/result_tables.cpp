@@ -16,6 +16,7 @@
 #include "corrector/result/side_by_side_report.hpp"
 #include "corrector/result/table_text.hpp"
 #include "protocol/text/aligned_text.hpp"
+#include "protocol/text/json_text.hpp"
 #include "protocol/text/message.hpp"
 
 namespace a351::corrector::report {
@@ -140,7 +141,7 @@ void add_readings(pugi::xml_node parent, const model::SurveyCorrection& result) 
     };
     result::in_order_of_time(result, add_row, [&](const reading::LeftOut& stay) {
         HtmlCells& cells = table.rows.emplace_back(kFirst + columns.size(), "-");
-        cells.front() = fmt::format("{} ({})", stay.site, stay.occupation);
+        cells.front() = reading::stay_name(stay.site, stay.occupation);
         cells[1] = is_recorded ? between(stay.start, stay.end) : to_rfc3339(stay.start);
         cells.back() = stay.reason;
     });
@@ -219,9 +220,9 @@ void add_closures(pugi::xml_node parent, const model::SurveyCorrection& result) 
     };
     std::vector<HtmlCells> rows;
     for (const Closure& pair : closures) {
-        HtmlCells& cells = rows.emplace_back(
-            HtmlCells{judgement::reading_name(result.rows, pair.earlier),
-                      judgement::reading_name(result.rows, pair.later), text::fixed(pair.hours, 2)});
+        HtmlCells& cells = rows.emplace_back(HtmlCells{
+            judgement::reading_name(result.rows, pair.earlier),
+            judgement::reading_name(result.rows, pair.later), text::fixed(pair.hours, 2)});
         for (const auto step : kSteps) cells.push_back(number(pair.*step));
         cells.push_back(text::fixed_or(pair.drift_mgal_per_h, 1, "-"));
     }
@@ -278,10 +279,8 @@ void add_provenance(pugi::xml_node parent, const nlohmann::ordered_json& setting
     std::vector<HtmlCells> rows;
     for (const auto& [key, value] : settings.items()) {
         if (key == "warnings") continue;
-        rows.push_back({key, value.is_string()
-                                 ? value.get<std::string>()
-                                 : value.dump(-1, ' ', false,
-                                              nlohmann::ordered_json::error_handler_t::replace)});
+        rows.push_back(
+            {key, value.is_string() ? value.get<std::string>() : text::json_text(value)});
     }
     rows.push_back({"program", "a351-correct " A351_VERSION});
     add(parent, "h3", tr("Settings"));

@@ -19,9 +19,7 @@ using judgement::Grade;
 using judgement::ReadingGrade;
 using text::tr;
 
-std::string grade_in_words(Grade grade) {
-    return std::string(text::translated(judgement::grade_name(grade), text::language()));
-}
+std::string grade_in_words(Grade grade) { return text::translated(judgement::grade_name(grade)); }
 
 /// Coverage factor for 95 % of five degrees of freedom.  With one it is 12.7, and u can be a tenth
 /// of the error.
@@ -42,8 +40,7 @@ std::vector<double> uncertainties(const model::SurveyCorrection& result, bool wi
     std::vector<double> values;
     for (const model::StationValue& station : result.stations)
         if (const auto u = shown_u(result, station);
-            u && (with_held || network == nullptr ||
-                  std::ranges::count(network->held_sites, station.site) == 0))
+            u && (with_held || network == nullptr || !network->holds(station.site)))
             values.push_back(u->value());
     std::ranges::sort(values);
     return values;
@@ -91,10 +88,6 @@ std::string accuracy(const model::SurveyCorrection& result) {
                     stations, least, most, left_out, error)
                : tr("{}; u is {} to {} mGal, not tested: no known station can be left out.",
                     stations, least, most);
-}
-
-std::string listed(const reading::LeftOut& stay) {
-    return fmt::format("{} ({})", stay.site, stay.occupation);
 }
 
 /// Returns the difference from the reference that the first table shows.
@@ -153,7 +146,7 @@ std::string answer(const model::SurveyCorrection& result,
         return judgement::grade_of_station(result, grades, site).grade == Grade::trust;
     };
     for (const reading::LeftOut& stay : result.left_out)
-        if (!has_other(stay.site)) urgent.push_back(listed(stay));
+        if (!has_other(stay.site)) urgent.push_back(reading::stay_name(stay.site, stay.occupation));
     for (std::size_t i = 0; i < grades.size(); ++i) {
         if (grades[i].grade != Grade::repeat) continue;
         (has_other(result.rows[i].row.site) ? optional : urgent)
@@ -196,7 +189,7 @@ std::vector<std::string> notes(const model::SurveyCorrection& result,
     std::vector<std::string> list;
     std::map<std::string, std::vector<std::string>> without_value;
     for (const reading::LeftOut& stay : result.left_out)
-        without_value[stay.reason].push_back(listed(stay));
+        without_value[stay.reason].push_back(reading::stay_name(stay.site, stay.occupation));
     for (const auto& [reason, names] : without_value)
         list.push_back(tr("{}: no value ({}).", text::joined(names), reason));
     const auto is_found = [&](const ReadingGrade& one) {

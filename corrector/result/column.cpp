@@ -40,7 +40,7 @@ std::string shown_text(const Cell& cell, int decimals) {
 std::string aligned_text(const Table& table) {
     std::vector<std::vector<std::string>> lines(1);
     for (const std::string& heading : table.headings)
-        lines.front().emplace_back(text::translated(heading, text::language()));
+        lines.front().emplace_back(text::translated(heading));
     lines.insert(lines.end(), table.rows.begin(), table.rows.end());
     return text::aligned(lines);
 }

@@ -10,6 +10,7 @@
 
 #include "corrector/judgement/reading_grade.hpp"
 #include "protocol/text/aligned_text.hpp"
+#include "protocol/text/json_text.hpp"
 
 namespace a351::corrector::result {
 namespace {
@@ -78,8 +79,8 @@ std::string stations_geojson(const model::SurveyCorrection& result,
         const text::Site* const site = text::find_site(sites, station.site);
         if (site == nullptr) continue;
         text += (text.back() == '[' ? "\n" : ",\n") +
-                feature(station, *site, judgement::grade_of_station(result, grades, station.site))
-                    .dump(-1, ' ', false, Json::error_handler_t::replace);
+                text::json_text(feature(station, *site,
+                                        judgement::grade_of_station(result, grades, station.site)));
     }
     return text + "\n]}\n";
 }

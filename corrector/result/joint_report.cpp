@@ -8,6 +8,7 @@
 #include "corrector/result/columns.hpp"
 #include "corrector/result/result_files.hpp"
 #include "protocol/text/aligned_text.hpp"
+#include "protocol/text/json_text.hpp"
 #include "protocol/text/message.hpp"
 #include "protocol/text/or_null.hpp"
 
@@ -64,8 +65,7 @@ std::string joint_json(const JointResult& joint, const JointTables& tables) {
     json["stations"] = json_array(joint_columns(), tables.stations);
     json["differences"] = json_array(difference_columns(), tables.differences);
     json["station_covariance"] = covariance_json(covariance);
-    // Names of sites may be in any encoding, but JSON is UTF-8.
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+    return text::json_text(json, 2) + '\n';
 }
 
 std::vector<std::string> joint_sentences(const JointResult& joint) {

@@ -62,8 +62,7 @@ Table table_by_survey(const std::vector<JointStation>& stations,
         table.headings.push_back(is_adjusted ? text::tr("{} - joint", survey.name) : survey.name);
         for (std::size_t i = 0; i < stations.size(); ++i) {
             std::string& cell = table.rows[i].emplace_back("-");
-            const model::StationValue* const station =
-                find_station(*survey.result, stations[i].site);
+            const model::StationValue* const station = survey.result->station(stations[i].site);
             if (station == nullptr || (is_adjusted && !stations[i].gravity)) continue;
             const DayValue value = day_value(*station);
             const int digits =
@@ -87,12 +86,6 @@ DayValue day_value(const model::StationValue& station) {
         return {*station.reference, MilliGal(station.shared->references_mgal.at(station.site)),
                 true};
     return {station.gravity, station.u_gravity, station.reference.has_value()};
-}
-
-const model::StationValue* find_station(const model::SurveyCorrection& survey,
-                                        const std::string& site) {
-    const auto found = std::ranges::find(survey.stations, site, &model::StationValue::site);
-    return found == survey.stations.end() ? nullptr : &*found;
 }
 
 double covariance_mgal2(const model::StationValue& a, const model::StationValue& b) {

@@ -62,10 +62,6 @@ struct DayValue {
 /// that alone is held by the whole-day model its reference.
 [[nodiscard]] DayValue day_value(const model::StationValue& station);
 
-/// Returns the value of a station; null if the survey has none.
-[[nodiscard]] const model::StationValue* find_station(const model::SurveyCorrection& survey,
-                                                      const std::string& site);
-
 /// Returns the covariance of the errors of one station on two days, mGal^2.
 ///
 /// With the whole-day model it has two parts.  The first comes from the unit's parameters (lags,

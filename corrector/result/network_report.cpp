@@ -25,10 +25,8 @@ ReferenceCheck check_references(const model::SurveyCorrection& result,
                                 const model::NetworkPart& network) {
     std::vector<double> differences_mgal;
     for (const model::StationValue& station : result.stations) {
-        if (std::ranges::find(network.held_sites, station.site) != network.held_sites.end() ||
-            station.is_flagged_only || !station.residual)
-            continue;
-        differences_mgal.push_back(station.residual->value());
+        if (!network.holds(station.site) && !station.is_flagged_only && station.residual)
+            differences_mgal.push_back(station.residual->value());
     }
     return {differences_mgal.size(), model::root_mean_square(differences_mgal)};
 }

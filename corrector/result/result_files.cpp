@@ -11,6 +11,7 @@
 #include "corrector/result/network_report.hpp"
 #include "corrector/result/scale_report.hpp"
 #include "corrector/result/side_by_side_report.hpp"
+#include "protocol/text/json_text.hpp"
 #include "protocol/text/or_null.hpp"
 
 namespace a351::corrector::result {
@@ -34,7 +35,7 @@ std::string place_of(const model::SurveyCorrection& result, const whole_day::Fit
     if (test.misfit == whole_day::Misfit::curvature)
         return test.place == 0 ? "temperature" : "time";
     const reading::SurveyRow& row = result.rows[test.place].row;
-    return fmt::format("{} ({})", row.site, row.occupation);
+    return reading::stay_name(row.site, row.occupation);
 }
 
 Json fit_tests_json(const model::SurveyCorrection& result) {
@@ -163,8 +164,7 @@ std::string result_json(const model::SurveyCorrection& result, const Json& setti
                                     {"end_utc", to_rfc3339(occupation.end, 3)},
                                     {"reason", occupation.reason}});
     }
-    // Names of sites may be in any encoding, but JSON is UTF-8.
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+    return text::json_text(json, 2) + '\n';
 }
 
 std::vector<text::NamedText> result_files(const model::SurveyCorrection& result,

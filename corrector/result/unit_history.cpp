@@ -62,7 +62,7 @@ std::vector<UnitDay> unit_days(const std::vector<model::RecordedSurvey>& surveys
         day.uncertainty_factor = part->uncertainty_factor;
         day.start = UtcTime::max();
         for (const model::CorrectedRow& row : fit.rows)
-            day.start = std::min(day.start, row.row.start.value_or(row.row.time));
+            day.start = std::min(day.start, row.row.first_instant());
         for (const TermKind& kind : term_kinds()) {
             const auto found =
                 std::ranges::find(fit.coefficients, kind.name, &model::Coefficient::name);

@@ -29,22 +29,15 @@ unit::Placement with_limits(double mgal, double log_error) {
 PlacementSeries measure_placement(const reading::OccupationRows& read,
                                   const unit::Calibration& known, const std::string& origin) {
     PlacementSeries series;
-    series.set_ups = static_cast<std::size_t>(std::ranges::count_if(read.rows, is_in_series));
     const CheckedSeries checked{"placement", origin, read};
+    series.set_ups = checked.set_ups();
     checked.require_one_point();
     if (series.set_ups < kFewestPlacements)
         checked.refuse(fmt::format("{} set-ups", series.set_ups),
                        fmt::format("{} or more, about 20 are good", kFewestPlacements));
     checked.require_day();
     // Gravity only shifts the constant.
-    const MilliGal gravity =
-        read.rows.front().reference.value_or(MilliGal(kMilliGalPerStandardGravity));
-    whole_day::DaySurvey day{&*read.day, {}, model::day_priors_of(known)};
-    for (std::size_t i = 0; i < read.rows.size(); ++i) {
-        whole_day::DayStation station{gravity, 0};
-        if (!is_in_series(read.rows[i])) station = {std::nullopt, i + 1};
-        day.stations.push_back(station);
-    }
+    whole_day::DaySurvey day{&*read.day, checked.stations(), model::day_priors_of(known)};
     const whole_day::DayFit fit = whole_day::adjust_day(std::move(day)).value().fit();
     if (!fit.noise_log_errors || fit.noise_log_errors->front() > kGreatestLogError)
         checked.refuse("the set-ups do not determine it", "more set-ups, or a quieter place");

@@ -2,10 +2,13 @@
 /// @file
 /// The rows and the refusals of all series of set-ups at one point.
 
+#include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "corrector/reading/occupation_rows.hpp"
+#include "corrector/whole_day/day_model.hpp"
 
 namespace a351::corrector::series {
 
@@ -26,6 +29,13 @@ struct CheckedSeries {
     void require_one_point() const;
     /// @throws InputError  the whole-day model refuses the record.
     void require_day() const;
+
+    /// Returns the number of set-ups that are used.
+    [[nodiscard]] std::size_t set_ups() const;
+    /// Returns the reference of the point; without one standard gravity, which is wrong by at most 3 Gal.
+    [[nodiscard]] MilliGal gravity() const;
+    /// Returns one station for the used set-ups, with this gravity, and one for each other.
+    [[nodiscard]] std::vector<whole_day::DayStation> stations() const;
 };
 
 }  // namespace a351::corrector::series

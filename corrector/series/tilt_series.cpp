@@ -103,9 +103,10 @@ std::vector<reading::DayBin> freed_from(const std::vector<reading::DayBin>& bins
 
 TiltSeries measure_axis_bias(const reading::OccupationRows& read, const std::string& origin) {
     TiltSeries series;
-    series.set_ups = static_cast<std::size_t>(std::ranges::count_if(read.rows, is_in_series));
+    const CheckedSeries checked{"tilt series", origin, read};
+    series.set_ups = checked.set_ups();
     series.temperature_range_degc = temperature_range_degc(read);
-    require_tilt_series(series, {"tilt series", origin, read});
+    require_tilt_series(series, checked);
     const Eigen::MatrixXd tilts = tilts_deg(read);
     for (const std::size_t axis : {0U, 1U}) {
         const auto column = tilts.col(static_cast<Eigen::Index>(axis));
@@ -113,17 +114,11 @@ TiltSeries measure_axis_bias(const reading::OccupationRows& read, const std::str
         series.greatest_tilt_deg.at(axis) = column.maxCoeff();
     }
 
-    // Standard gravity is wrong by at most 3 Gal.  This error acts like a vertical bias, whose
-    // effect is even in the tilt.
-    const MilliGal gravity =
-        read.rows.front().reference.value_or(MilliGal(kMilliGalPerStandardGravity));
+    // An error of gravity acts like a vertical bias, whose effect is even in the tilt.
+    const MilliGal gravity = checked.gravity();
     whole_day::DaySurvey survey;
     survey.priors.free_axes();
-    for (std::size_t i = 0; i < read.rows.size(); ++i) {
-        whole_day::DayStation station{gravity, 0};
-        if (!is_in_series(read.rows[i])) station = {std::nullopt, i + 1};
-        survey.stations.push_back(station);
-    }
+    survey.stations = checked.stations();
     double mean = 0.0;
     for (const reading::DayBin& bin : read.day->bins)
         if (is_in_series(read.rows[bin.set_up]))

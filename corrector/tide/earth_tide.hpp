@@ -43,6 +43,9 @@ struct Factors {
     bool operator==(const Factors&) const = default;
 };
 
+/// Limits of the factors.  Reason: no model of the Earth is outside them; 1 is a rigid Earth.
+inline constexpr double kLeastFactor = 0.5, kGreatestFactor = 2.0;
+
 /// Factors of a rigid Earth, without unit, for comparison with catalogues: attraction only.
 inline constexpr Factors kRigidEarth{1.0, 1.0};
 

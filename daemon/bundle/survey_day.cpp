@@ -33,9 +33,7 @@ UtcTime begin_of(const SurveyDay& day) {
 }
 
 Contents contents_of(const SurveyDay& day) {
-    std::string time = to_rfc3339(day.now, 0);
-    std::erase_if(time, [](char letter) { return letter == '-' || letter == ':'; });
-    const std::string name = day.station + '_' + time;
+    const std::string name = day.station + '_' + to_compact(day.now);
     Contents contents{
         .folder = name,
         .root = day.root,

@@ -8,6 +8,7 @@
 
 #include "daemon/config/verdict_config.hpp"
 #include "protocol/core/input_error.hpp"
+#include "protocol/core/whole_number.hpp"
 #include "protocol/text/sites.hpp"
 #include "protocol/text/strict_toml.hpp"
 #include "protocol/text/toml_without.hpp"
@@ -231,11 +232,8 @@ bool is_origin(std::string_view text) {
     const auto host = rest.substr(0, colon);
     if (colon != std::string_view::npos) {
         const auto port = rest.substr(colon + 1);
-        std::uint16_t number = 0;
-        const auto read = std::from_chars(port.data(), port.data() + port.size(), number);
         // A browser writes a port without a leading zero.
-        if (read.ec != std::errc{} || read.ptr != port.data() + port.size() || port.front() == '0')
-            return false;
+        if (!parse_whole<std::uint16_t>(port) || port.front() == '0') return false;
     }
     const auto is_of_host = [](char c) {
         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||

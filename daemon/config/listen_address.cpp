@@ -4,26 +4,20 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <charconv>
+
+#include "protocol/core/whole_number.hpp"
 
 namespace a351::daemon::config {
 namespace {
 
 constexpr std::size_t kShortestToken = 16;  // 96 bits in base 64 cannot be guessed over a network.
 
-std::optional<std::uint16_t> port_of(std::string_view digits) {
-    std::uint16_t port = 0;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), port);
-    if (error != std::errc() || end != digits.data() + digits.size()) return std::nullopt;
-    return port;
-}
-
 }  // namespace
 
 std::optional<ListenAddress> parse_listen(std::string_view text) {
     const auto colon = text.rfind(':');
     if (colon == std::string_view::npos) return std::nullopt;
-    const auto port = port_of(text.substr(colon + 1));
+    const auto port = parse_whole<std::uint16_t>(text.substr(colon + 1));
     if (!port) return std::nullopt;
 
     ListenAddress address;

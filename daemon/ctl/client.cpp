@@ -40,10 +40,6 @@ bool is_order(const http::request<http::string_body>& request) {
     return request.method() == http::verb::post;
 }
 
-std::string megabytes(std::uint64_t bytes) {
-    return fmt::format("{:.1f}", static_cast<double>(bytes) / 1e6);
-}
-
 constexpr std::uint64_t kLargestAnswer = std::uint64_t{64} * 1024 * 1024;
 
 /// Connects to the daemon and sends a request.
@@ -185,6 +181,10 @@ Reply ask(const Url& url, http::request<http::string_body> request) {
 }
 
 }  // namespace
+
+std::string megabytes(std::uint64_t bytes) {
+    return fmt::format("{:.1f}", static_cast<double>(bytes) / 1e6);
+}
 
 std::string Url::authority() const {
     const bool is_v6 = host.find(':') != std::string::npos;

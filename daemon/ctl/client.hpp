@@ -58,4 +58,7 @@ private:
     Url url_;
 };
 
+/// Returns a size as "12.3", MB.
+[[nodiscard]] std::string megabytes(std::uint64_t bytes);
+
 }  // namespace a351::daemon::ctl

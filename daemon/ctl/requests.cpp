@@ -1,6 +1,7 @@
 #include "daemon/ctl/requests.hpp"
 
 #include "daemon/ctl/screen.hpp"
+#include "protocol/text/json_text.hpp"
 #include "protocol/text/message.hpp"
 
 namespace a351::daemon::ctl {
@@ -38,9 +39,7 @@ Answer send_change(const Client& client, const std::string& token, const std::st
         if (!given.body.contains("token")) throw_no_daemon();
         used = given.body.value("token", "");
     }
-    // Arguments may be invalid UTF-8; invalid parts become U+FFFD, which the daemon does not know.
-    const std::string text = body.dump(-1, ' ', false, json::error_handler_t::replace);
-    return answer_of(client.post(path, text, used));
+    return answer_of(client.post(path, text::json_text(body), used));
 }
 
 std::string message_of(const Answer& answer) {

@@ -81,7 +81,7 @@ std::string status_screen(const json& answer, bool is_coloured) {
     for (const json& row : at(answer, "rows")) {
         const std::string label = printable(row.value("label", ""));
         const std::string text = printable(sentence_of(row, "text", "text_parts"));
-        screen += fmt::format("{:13}{}\n", text::translated(label, text::language()),
+        screen += fmt::format("{:13}{}\n", text::translated(label),
                               coloured(text, row.value("level", ""), is_coloured));
     }
     return screen;

@@ -50,10 +50,6 @@ void require_uninterrupted() {
     if (is_interrupted != 0) throw std::runtime_error(text::tr("interrupted; nothing was saved"));
 }
 
-std::string megabytes(std::uint64_t bytes) {
-    return fmt::format("{:.1f}", static_cast<double>(bytes) / kMegabyte);
-}
-
 /// Returns what is wrong with the disk, and what to do.
 std::string disk_trouble(const std::system_error& error, const std::filesystem::path& folder,
                          std::uint64_t size) {

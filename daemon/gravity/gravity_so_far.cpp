@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "protocol/text/json_text.hpp"
 #include "protocol/text/message.hpp"
 
 namespace a351::daemon::gravity {
@@ -109,7 +110,7 @@ std::string GravitySoFar::document() const {
         document["reason_text"] = words;
         document["reason_parts"] = text::marked_message(words).to_json();
     }
-    return document.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
+    return text::json_text(document) + '\n';
 }
 
 std::optional<GravitySoFar::Time> GravitySoFar::next_run() const {

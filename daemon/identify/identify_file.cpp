@@ -15,9 +15,8 @@ std::string file_stem(const Observation& seen) {
     std::string serial_number = seen.device.serial_number;
     std::ranges::replace_if(
         serial_number, [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
-    std::string time = to_rfc3339(seen.time);
-    std::erase_if(time, [](char c) { return c == '-' || c == ':'; });
-    return fmt::format("identify-{}-{}", serial_number.empty() ? "unknown" : serial_number, time);
+    return fmt::format("identify-{}-{}", serial_number.empty() ? "unknown" : serial_number,
+                       to_compact(seen.time));
 }
 
 std::string file_text(const Observation& seen, const Report& report) {

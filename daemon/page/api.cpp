@@ -14,6 +14,7 @@
 #include "daemon/page/status_rows.hpp"
 #include "daemon/survey/operator_signal.hpp"
 #include "protocol/core/input_error.hpp"
+#include "protocol/text/json_text.hpp"
 
 namespace a351::daemon::page {
 namespace {
@@ -38,11 +39,7 @@ constexpr std::string_view kChangeable[] = {"/api/occupation/start",
                                             "/api/note",
                                             "/api/sites"};
 
-/// Makes an answer of this body.  Texts from files and devices may be invalid UTF-8; invalid parts
-/// become U+FFFD.
-Response ok(const json& body) {
-    return {.body = body.dump(-1, ' ', false, json::error_handler_t::replace) + "\n"};
-}
+Response ok(const json& body) { return {.body = text::json_text(body) + "\n"}; }
 
 /// Returns the language whose catalogue is at this path, as /ja.json.
 std::optional<text::Language> language_at(std::string_view path) {

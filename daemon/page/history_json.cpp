@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -14,6 +13,7 @@
 
 #include "daemon/page/message.hpp"
 #include "protocol/core/input_error.hpp"
+#include "protocol/core/whole_number.hpp"
 
 namespace a351::daemon::page {
 namespace {
@@ -38,15 +38,11 @@ std::optional<UtcTime> instant(const Keys& keys, const std::string& key) {
 std::size_t point_count(const Keys& keys) {
     const auto found = keys.find("points");
     if (found == keys.end()) return kUsualPoints;
-    const auto& text = found->second;
-    std::size_t count = 0;
-    const auto read = std::from_chars(text.data(), text.data() + text.size(), count);
-    if (read.ec != std::errc() || read.ptr != text.data() + text.size() || count < 1 ||
-        count > kMostPoints) {
+    const auto count = parse_whole<std::size_t>(found->second);
+    if (!count || *count < 1 || *count > kMostPoints)
         throw InputError(
-            fmt::format("query: key points = {}; allowed: 1 to {}", text, kMostPoints));
-    }
-    return count;
+            fmt::format("query: key points = {}; allowed: 1 to {}", found->second, kMostPoints));
+    return *count;
 }
 
 /// Appends `[t_ms, first, second]` with the fewest digits that reproduce the float; NaN is null.

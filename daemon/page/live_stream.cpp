@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "daemon/page/guard.hpp"
+#include "protocol/text/json_text.hpp"
 
 namespace a351::daemon::page {
 namespace {
@@ -20,8 +21,7 @@ constexpr std::size_t kLargestFromClient = std::size_t{4} * 1024;
 constexpr int kSendBuffer = 128 * 1024;
 
 LiveMessage text_message(const nlohmann::json& text) {
-    return {.is_text = true,
-            .bytes = text.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)};
+    return {.is_text = true, .bytes = text::json_text(text)};
 }
 
 }  // namespace

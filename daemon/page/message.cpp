@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "protocol/core/input_error.hpp"
+#include "protocol/text/json_text.hpp"
 
 namespace a351::daemon::page {
 namespace {
@@ -43,8 +44,7 @@ std::vector<std::string> Request::values(std::string_view name) const {
 
 Response refusal(int status, const text::Message& trouble) {
     const nlohmann::json body = {{"error", trouble.english()}, {"error_parts", trouble.to_json()}};
-    return {.status = status,
-            .body = body.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n"};
+    return {.status = status, .body = text::json_text(body) + "\n"};
 }
 
 void require_allowed(std::string_view part, const std::string& key,

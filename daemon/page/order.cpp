@@ -3,12 +3,12 @@
 #include <fmt/core.h>
 
 #include <array>
-#include <charconv>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "daemon/page/message.hpp"
 #include "protocol/core/input_error.hpp"
+#include "protocol/core/whole_number.hpp"
 #include "protocol/text/echo.hpp"
 
 namespace a351::daemon::page {
@@ -19,13 +19,12 @@ namespace {
 
 /// Reads a whole number; the rules of the stay limit it.
 int parse_set_ups(const std::string& key, const std::string& text) {
-    int count = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
-    if (error != std::errc() || end != text.data() + text.size())
+    const auto count = parse_whole<int>(text);
+    if (!count)
         throw InputError(fmt::format("body: key {} = {}: not a whole number; allowed: {} to {}",
                                      key, text::echoed(text), events::kFewestPlannedSetUps,
                                      events::kMostPlannedSetUps));
-    return count;
+    return *count;
 }
 
 int parse_face(const std::string& key, const std::string& text) {

@@ -3,24 +3,11 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "daemon/page/status_fields.hpp"
+#include "daemon/page/field_values.hpp"
 
 namespace a351::daemon::page {
-namespace {
 
 using nlohmann::json;
-
-template <class Number>
-json or_null(const std::optional<Number>& number) {
-    return number ? json(*number) : json();
-}
-
-template <class Unit>
-json or_null(const std::optional<Quantity<Unit>>& quantity) {
-    return quantity ? json(quantity->value()) : json();
-}
-
-}  // namespace
 
 std::string_view to_text(status::Status::Level level) noexcept {
     // In the order of the enumerators.
@@ -50,18 +37,18 @@ json to_json(const events::RunningOccupation& running, UtcTime now) {
             {"number", running.number},
             {"operator", running.operator_name},
             {"note", running.note},
-            {"start", to_rfc3339(running.start, 3)},
-            {"set_up", to_rfc3339(running.set_ups.back(), 3)},
+            {"start", json_of(running.start)},
+            {"set_up", json_of(running.set_ups.back())},
             {"set_up_count", running.set_ups.size()},
             {"running_s", seconds_between(running.start, now)},
             {"session", running.session ? json(running.session->to_hex()) : json()},
-            {"index", or_null(running.index)}};
+            {"index", json_of(running.index)}};
 }
 
 json to_json(const events::Occupation& occupation) {
     json set_ups = json::array();
     for (const auto& one : occupation.set_ups)
-        set_ups.push_back({{"start", to_rfc3339(one.start, 3)}, {"end", to_rfc3339(one.end, 3)}});
+        set_ups.push_back({{"start", json_of(one.start)}, {"end", json_of(one.end)}});
     return {{"key", occupation.key},       {"site", occupation.site},
             {"number", occupation.number}, {"operator", occupation.operator_name},
             {"note", occupation.note},     {"set_ups", set_ups}};
@@ -74,8 +61,8 @@ json to_json(const survey::SiteDistance& one) {
             {"longitude_deg", placed(site.longitude.value())},
             {"latitude_deg", placed(site.latitude.value())},
             {"altitude_m", site.has_altitude ? json(site.altitude.value()) : json()},
-            {"gravity_mgal", or_null(site.gravity)},
-            {"distance_m", or_null(one.distance)}};
+            {"gravity_mgal", json_of(site.gravity)},
+            {"distance_m", json_of(one.distance)}};
 }
 
 json checks_of(const verdict::Verdict& verdict) {
@@ -97,11 +84,11 @@ json to_json(const verdict::RunningReading& reading) {
     json limits;
     if (const auto& known = reading.set_up_sd_limits)
         limits = {known->front().value(), known->back().value()};
-    return {{"value_mgal", or_null(reading.value)},
+    return {{"value_mgal", json_of(reading.value)},
             {"set_ups", reading.set_ups},
-            {"set_up_sd_mgal", or_null(reading.set_up_sd)},
+            {"set_up_sd_mgal", json_of(reading.set_up_sd)},
             {"set_up_sd_limits_mgal", limits},
-            {"set_up_error_mgal", or_null(reading.set_up_error)},
+            {"set_up_error_mgal", json_of(reading.set_up_error)},
             {"used_s", reading.used_s},
             {"left_out_s", reading.left_out_s}};
 }
@@ -110,8 +97,8 @@ json gravity_of(const survey::SoFar& so_far, const std::string& key) {
     const auto found = so_far.stays.find(key);
     if (found == so_far.stays.end()) return {};
     const survey::StayGravity& stay = found->second;
-    return {{"gravity_mgal", or_null(stay.gravity)},
-            {"u_mgal", or_null(stay.u)},
+    return {{"gravity_mgal", json_of(stay.gravity)},
+            {"u_mgal", json_of(stay.u)},
             {"missing_parts", stay.missing.empty() ? json() : stay.missing.to_json()}};
 }
 

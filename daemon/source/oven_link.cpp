@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "daemon/source/back_off.hpp"
 #include "daemon/source/port.hpp"
 #include "protocol/text/catalogue.hpp"
 
@@ -22,9 +23,6 @@ constexpr milliseconds kPause{10};
 constexpr std::uint8_t kIllegalDataAddress = 2;
 constexpr int kPollsUntilStale = 3;
 constexpr int kDecimalTries = 3;
-// Pauses after failed polls, instrument time.
-constexpr std::array kBackOff{seconds(1), seconds(2), seconds(5), seconds(10), seconds(30)};
-constexpr milliseconds kShortestRealBackOff{50};
 
 OvenLinkStatus::State state_after(OvenOutcome outcome) {
     using State = OvenLinkStatus::State;
@@ -109,9 +107,7 @@ void OvenLink::run() noexcept {
                                                      steady_clock::now() + kPause);
         } else {
             line_.reset();
-            const Nanoseconds span = kBackOff[std::min(failures_in_a_row_++, kBackOff.size() - 1)];
-            due = steady_clock::now() +
-                  std::max<Nanoseconds>(kShortestRealBackOff, clock_.real_span(span));
+            due = steady_clock::now() + real_wait_of(clock_, back_off_of(failures_in_a_row_++));
         }
         std::unique_lock lock(mutex_);
         woken_.wait_until(lock, due, [this] { return stop_.load(); });

@@ -6,6 +6,7 @@
 #include <random>
 #include <utility>
 
+#include "daemon/source/back_off.hpp"
 #include "protocol/wire/commands.hpp"
 
 namespace a351::daemon::source {
@@ -14,14 +15,11 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-constexpr milliseconds kShortestRealWait{50};  // a fast emulator is not asked without a pause
 // Waiting times in instrument time, which real_wait() converts.
 constexpr seconds kPortRetry{1};
 // Bytes of another device.  The shortest line of a GPS receiver, which sends lines each second, has
 // 20: "$GPGLL,,,,,,V,N*64" and its end (NMEA 0183).  A plug that is put in makes a few.
 constexpr std::size_t kLeastTalk = 16;
-constexpr std::array kHandshakeBackOff{seconds(1), seconds(2), seconds(5), seconds(10),
-                                       seconds(30)};
 
 /// Returns the configured rate, then the other rates that are fast enough for the frames.
 std::vector<int> bauds_of(const LinkOptions& options) {
@@ -260,8 +258,7 @@ void SensorLink::prepare_session(const journal::SessionId& session,
 }
 
 void SensorLink::back_off(const text::Message& trouble) {
-    const seconds span =
-        kHandshakeBackOff[std::min(failures_in_a_row_++, kHandshakeBackOff.size() - 1)];
+    const seconds span = back_off_of(failures_in_a_row_++);
     set_state(LinkStatus::State::waiting, trouble);
     if (find_port())  // It is closed when all baud rates have been tried.
         wait_for_bytes(real_wait(span));
@@ -289,9 +286,7 @@ void SensorLink::begin_session() {
     const bool is_new = !known_ || known_->header.session != begun_->header.session;
     // The counter of a device that was just configured starts at 0.
     if (is_new) known_ = journal::StreamEnd{begun_->header, 0, begun_->header.clock.raw};
-    while (!queue_.push_session(begun_->header, begun_->header.clock.raw) && !stop_)
-        wait_for_journal();
-    waits_for_journal_ = false;
+    queue([&] { return queue_.push_session(begun_->header, begun_->header.clock.raw); });
     for (const journal::TxChunk& chunk : begun_->sent)
         push(ReadQueue::Kind::tx, chunk.time, chunk.bytes);
     begun_.reset();
@@ -337,7 +332,7 @@ void SensorLink::lose_port() {
 }
 
 Nanoseconds SensorLink::real_wait(seconds instrument_span) const {
-    return std::max<Nanoseconds>(kShortestRealWait, clock_.real_span(Nanoseconds(instrument_span)));
+    return real_wait_of(clock_, instrument_span);
 }
 
 void SensorLink::wait(seconds instrument_span) {

@@ -99,6 +99,12 @@ private:
     void wait_for_bytes(Nanoseconds real);
     void expect_stream(std::vector<Read> unread);
     void wait_for_journal();
+    /// Waits for the journal until `push` succeeds or the link is stopped.
+    template <class Push>
+    void queue(Push push) {
+        while (!push() && !stop_) wait_for_journal();
+        waits_for_journal_ = false;
+    }
     void push(ReadQueue::Kind kind, RawTime time, std::span<const std::byte> bytes);
     [[nodiscard]] RawTime push_woken();
     void stop_sensor();

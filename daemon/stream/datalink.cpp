@@ -2,21 +2,15 @@
 
 #include <fmt/core.h>
 
-#include <charconv>
 #include <pugixml.hpp>
+
+#include "protocol/core/whole_number.hpp"
 
 namespace a351::daemon::stream {
 namespace {
 
 constexpr std::size_t kMostData = std::size_t{16} * 1024 * 1024;
 constexpr std::string_view kType = "/MSEED";
-
-std::optional<std::uint64_t> number(std::string_view text) {
-    std::uint64_t value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-    return value;
-}
 
 std::vector<std::string> words_of(std::string_view text, char separator) {
     std::vector<std::string> words;
@@ -63,7 +57,7 @@ std::string make_write(const Record& record) {
 }
 
 std::uint64_t AnswerHeader::value() const {
-    const auto value = words.size() > 1 ? number(words[1]) : std::nullopt;
+    const auto value = words.size() > 1 ? parse_whole<std::uint64_t>(words[1]) : std::nullopt;
     if (!value) throw RingError(fmt::format("it answers {} without a number", kind()));
     return *value;
 }
@@ -79,7 +73,8 @@ AnswerHeader parse_header(std::string_view header) {
         return !answer.words.empty() && answer.kind() == kind;
     };
     if (is("ID")) return answer;
-    const auto size = answer.words.size() > 1 ? number(answer.words.back()) : std::nullopt;
+    const auto size =
+        answer.words.size() > 1 ? parse_whole<std::uint64_t>(answer.words.back()) : std::nullopt;
     const bool is_known = is("OK") || is("ERROR") || is("INFO") || is("PACKET");
     if (!is_known || !size || *size > kMostData)
         throw RingError("it sends what is not an answer of DataLink");
@@ -94,7 +89,7 @@ std::map<std::string, std::uint64_t> parse_streams(std::string_view xml) {
     std::map<std::string, std::uint64_t> streams;
     for (const auto& stream : document.child("DataLink").child("StreamList").children("Stream")) {
         const std::string name = plain_name(stream.attribute("Name").value());
-        const auto id = number(stream.attribute("LatestPacketID").value());
+        const auto id = parse_whole<std::uint64_t>(stream.attribute("LatestPacketID").value());
         if (!id) throw RingError("its list of streams cannot be read");
         if (!name.empty()) streams[name] = *id;
     }

@@ -16,9 +16,8 @@ text::Message with_times(const events::Occupation& one) {
 
 }  // namespace
 
-/// Returns the stay; std::nullopt and the reason if there is none, or if its site is another.
-std::optional<Occupations::Found> Occupations::found(const Named& stay, text::Message& trouble) {
-    std::optional<Found> found;
+Occupations::Found Occupations::found(const Named& stay) {
+    Found found;
     if (running() && running()->key == stay.key) {
         const auto latest = newest();
         found = {Found::State::running, running()->site,
@@ -33,13 +32,11 @@ std::optional<Occupations::Found> Occupations::found(const Named& stay, text::Me
     };
     look_at(list(), Found::State::finished);
     look_at(discarded(), Found::State::discarded);
-    if (!found) {
-        trouble = text::message("no stay has the key {}; see the list", stay.key);
-    } else if (!stay.site.empty() && stay.site != found->site) {
-        trouble = text::message("the stay {} is at {}, not at {}; nothing was changed", stay.key,
-                                found->site, stay.site);
-        found.reset();
-    }
+    if (found.site.empty())
+        found.trouble = text::message("no stay has the key {}; see the list", stay.key);
+    else if (!stay.site.empty() && stay.site != found.site)
+        found.trouble = text::message("the stay {} is at {}, not at {}; nothing was changed",
+                                      stay.key, found.site, stay.site);
     return found;
 }
 
@@ -65,72 +62,68 @@ events::Event Occupations::change_of(std::string type, const Named& stay, const 
 }
 
 Outcome Occupations::discard(const Named& stay, const Remark& remark) {
-    text::Message trouble;
-    const auto one = found(stay, trouble);
-    if (!one) return refused(trouble);
-    if (one->state == Found::State::discarded)
-        return refused(text::message("{} is discarded already", one->text));
-    events::Event event = change_of("discard", {stay.key, one->site}, remark);
-    return commit(std::move(event), text::message("discarded {}", one->text));
+    const Found one = found(stay);
+    if (!one.trouble.empty()) return refused(one.trouble);
+    if (one.state == Found::State::discarded)
+        return refused(text::message("{} is discarded already", one.text));
+    events::Event event = change_of("discard", {stay.key, one.site}, remark);
+    return commit(std::move(event), text::message("discarded {}", one.text));
 }
 
 Outcome Occupations::restore(const Named& stay, const Remark& remark) {
-    text::Message trouble;
-    const auto one = found(stay, trouble);
-    if (!one) return refused(trouble);
-    if (one->state != Found::State::discarded)
-        return refused(text::message("{} is not discarded", one->text));
-    if (trouble = trouble_with_overlap(stay.key, one->start, one->end); !trouble.empty())
-        return refused(text::message("{} cannot be restored: {}", one->text, trouble));
-    events::Event event = change_of("restore", {stay.key, one->site}, remark);
-    return commit(std::move(event), text::message("restored {}", one->text));
+    const Found one = found(stay);
+    if (!one.trouble.empty()) return refused(one.trouble);
+    if (one.state != Found::State::discarded)
+        return refused(text::message("{} is not discarded", one.text));
+    if (const auto trouble = trouble_with_overlap(stay.key, one.start, one.end); !trouble.empty())
+        return refused(text::message("{} cannot be restored: {}", one.text, trouble));
+    events::Event event = change_of("restore", {stay.key, one.site}, remark);
+    return commit(std::move(event), text::message("restored {}", one.text));
 }
 
 Outcome Occupations::resume(const Named& stay, const Remark& remark) {
-    text::Message trouble;
-    const auto one = found(stay, trouble);
-    if (!one) return refused(trouble);
+    const Found one = found(stay);
+    if (!one.trouble.empty()) return refused(one.trouble);
     if (running())
         return refused(text::message("{} has been running since {}", named(*running()),
                                      shown(running()->start)));
-    if (one->state == Found::State::discarded)
-        return refused(text::message("{} is discarded: restore it first", one->text));
+    if (one.state == Found::State::discarded)
+        return refused(text::message("{} is discarded: restore it first", one.text));
     if (!recorder_.latest()) return refused(no_sample());
-    events::Event event = change_of("resume", {stay.key, one->site}, remark);
-    if (const Nanoseconds since = event.utc - one->end; since > kLongestResume)
+    events::Event event = change_of("resume", {stay.key, one.site}, remark);
+    if (const Nanoseconds since = event.utc - one.end; since > kLongestResume)
         return refused(
             text::message("{} was stopped {:.1f} min ago; a stay is resumed at most {:.0f} "
                           "min after its stop: start a new one",
-                          one->text, Minutes(since).count(), Minutes(kLongestResume).count()));
-    if (trouble = trouble_with_overlap(stay.key, one->start, UtcTime::max()); !trouble.empty())
-        return refused(text::message("{} cannot be resumed: {}", one->text, trouble));
-    return commit(std::move(event), text::message("resumed {}", one->text));
+                          one.text, Minutes(since).count(), Minutes(kLongestResume).count()));
+    if (const auto trouble = trouble_with_overlap(stay.key, one.start, UtcTime::max());
+        !trouble.empty())
+        return refused(text::message("{} cannot be resumed: {}", one.text, trouble));
+    return commit(std::move(event), text::message("resumed {}", one.text));
 }
 
 Outcome Occupations::rename(const Named& stay, std::string_view entered, const Remark& remark) {
     const std::string site = text::plain_text(entered);
     if (auto trouble = trouble_with_site(site)) return refused(*std::move(trouble));
-    text::Message trouble;
-    const auto one = found(stay, trouble);
-    if (!one) return refused(trouble);
-    if (one->site == site) return refused(text::message("{} is at {} already", one->text, site));
+    const Found one = found(stay);
+    if (!one.trouble.empty()) return refused(one.trouble);
+    if (one.site == site) return refused(text::message("{} is at {} already", one.text, site));
     events::Event event = change_of("rename", {stay.key, site}, remark);
-    return commit(std::move(event), text::message("renamed {} to {}", one->text, site));
+    return commit(std::move(event), text::message("renamed {} to {}", one.text, site));
 }
 
 Outcome Occupations::retime(const Named& stay, std::optional<UtcTime> from,
                             std::optional<UtcTime> to, const Remark& remark) {
-    text::Message trouble;
-    const auto one = found(stay, trouble);
-    if (!one) return refused(trouble);
+    const Found one = found(stay);
+    if (!one.trouble.empty()) return refused(one.trouble);
     if (!from && !to) return refused(text::message("neither a start nor an end is given"));
-    if (one->state == Found::State::discarded)
-        return refused(text::message("{} is discarded: restore it first", one->text));
-    const bool is_running = one->state == Found::State::running;
+    if (one.state == Found::State::discarded)
+        return refused(text::message("{} is discarded: restore it first", one.text));
+    const bool is_running = one.state == Found::State::running;
     if (is_running && to)
         return refused(
-            text::message("{}: it has no end yet; stop it at the right time instead", one->text));
-    const UtcTime start = from.value_or(one->start), end = to.value_or(one->end);
+            text::message("{}: it has no end yet; stop it at the right time instead", one.text));
+    const UtcTime start = from.value_or(one.start), end = to.value_or(one.end);
     const auto latest = recorder_.latest();
     if (!latest) return refused(no_sample());
     if (std::max(start, end) > latest->utc)
@@ -139,30 +132,29 @@ Outcome Occupations::retime(const Named& stay, std::optional<UtcTime> from,
     if (start >= end)
         return refused(
             text::message("the start {} is not before the end {}", shown(start), shown(end)));
-    const bool is_early = start < one->start - kFarthestRetime;
-    if (is_early || end > one->end + kFarthestRetime)
+    const bool is_early = start < one.start - kFarthestRetime;
+    if (is_early || end > one.end + kFarthestRetime)
         return refused(text::message("{} is more than a day outside the stay: check its date",
                                      shown(is_early ? start : end)));
-    trouble = trouble_with_overlap(stay.key, start, is_running ? UtcTime::max() : end);
+    const auto trouble = trouble_with_overlap(stay.key, start, is_running ? UtcTime::max() : end);
     if (!trouble.empty())
-        return refused(text::message("{} cannot begin at {} and end at {}: {}", one->text,
+        return refused(text::message("{} cannot begin at {} and end at {}: {}", one.text,
                                      shown(start), shown(end), trouble));
-    events::Event event = change_of("retime", {stay.key, one->site}, remark);
+    events::Event event = change_of("retime", {stay.key, one.site}, remark);
     if (from) add(event, "from", to_rfc3339(*from, 9));
     if (to) add(event, "to", to_rfc3339(*to, 9));
     return commit(
         std::move(event),
-        is_running ? text::message("{} is now from {}", one->text, shown(start))
-                   : text::message("{} is now from {} to {}", one->text, shown(start), shown(end)));
+        is_running ? text::message("{} is now from {}", one.text, shown(start))
+                   : text::message("{} is now from {} to {}", one.text, shown(start), shown(end)));
 }
 
 Outcome Occupations::not_moved(const Named& stay, const Remark& remark) {
-    text::Message trouble;
-    const auto one = found(stay, trouble);
-    if (!one) return refused(trouble);
-    events::Event event = change_of("not_moved", {stay.key, one->site}, remark);
+    const Found one = found(stay);
+    if (!one.trouble.empty()) return refused(one.trouble);
+    events::Event event = change_of("not_moved", {stay.key, one.site}, remark);
     if (event.utc == UtcTime{}) return refused(no_sample());
-    text::Message said = text::message("{}: not moved until {}", one->text, shown(event.utc));
+    text::Message said = text::message("{}: not moved until {}", one.text, shown(event.utc));
     return commit(std::move(event), std::move(said));
 }
 
@@ -179,10 +171,9 @@ Outcome Occupations::note(const Named& stay, std::string_view text) {
     events::Event event = change_of("note", {stay.key, ""}, {});
     text::Message said = text::message("noted at {}", shown(event.utc));
     if (!stay.key.empty()) {
-        text::Message trouble;
-        const auto one = found(stay, trouble);
-        if (!one) return refused(trouble);
-        said = text::message("noted at {} for {}", shown(event.utc), one->text);
+        const Found one = found(stay);
+        if (!one.trouble.empty()) return refused(one.trouble);
+        said = text::message("noted at {} for {}", shown(event.utc), one.text);
     }
     if (event.utc == UtcTime{}) return refused(no_sample());
     add(event, "note", text);

@@ -179,12 +179,13 @@ private:
     struct Found {
         enum class State { running, finished, discarded };
         State state = State::finished;
-        std::string site;
-        text::Message text;  ///< Site, number and times.
-        UtcTime start, end;  ///< A stay that still runs ends at the last sample.
+        std::string site;            ///< Empty: there is none.
+        text::Message text;          ///< Site, number and times.
+        UtcTime start, end;          ///< A stay that still runs ends at the last sample.
+        text::Message trouble = {};  ///< Why it is not the stay that is named; empty if it is.
     };
 
-    [[nodiscard]] std::optional<Found> found(const Named& stay, text::Message& trouble);
+    [[nodiscard]] Found found(const Named& stay);
     [[nodiscard]] text::Message trouble_with_overlap(const std::string& key, UtcTime start,
                                                      UtcTime end) const;
     [[nodiscard]] events::Event change_of(std::string type, const Named& stay,

@@ -116,12 +116,12 @@ std::optional<RateConflict> rate_conflict(const std::vector<Segment>& segments,
     return conflict;
 }
 
+}  // namespace
+
 bool is_of(const journal::StationCodes& codes, const RecordHeader& header) {
     return header.network == codes.network && header.station == codes.station &&
            header.location == codes.location;
 }
-
-}  // namespace
 
 void RecordJoiner::take(const DecodedRecord& record) {
     const bool is_wrong = wrong_ && record.rate_hz() == wrong_->header_hz;

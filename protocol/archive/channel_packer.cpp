@@ -59,12 +59,10 @@ void ChannelPacker::close(const RecordContext& context, bool ends_series) {
 // Their times are those that a reader computes from the header.
 std::size_t ChannelPacker::samples_before_midnight(const RecordHeader& header) const {
     const UtcTime midnight = floor<days>(header.start) + days(1);
-    const auto declared = static_cast<float>(header.declared_rate_hz.value_or(0.0));
-    const double rate_hz = header.declared_rate_hz ? static_cast<double>(declared)  // blockette 100
-                                                   : header.nominal_rate.value();
     std::size_t count = samples_.size();
     while (count > 1 &&
-           header.start + from_seconds(static_cast<double>(count - 1) / rate_hz) >= midnight)
+           header.start + from_seconds(static_cast<double>(count - 1) / header.rate_hz()) >=
+               midnight)
         --count;
     return count;
 }

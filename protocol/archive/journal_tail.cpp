@@ -106,9 +106,7 @@ struct JournalTail::Gather final : Sink {
 
     void record(const std::string& channel, const PackedRecord& packed, std::int64_t) override {
         const auto record = decode_record(packed.bytes);
-        if (!record || record->header.network != codes.network ||
-            record->header.station != codes.station || record->header.location != codes.location)
-            return;
+        if (!record || !is_of(codes, record->header)) return;
         const double length_s = static_cast<double>(record->samples.size()) / record->rate_hz();
         if (record->header.start + from_seconds(length_s) < kept_from) return;
         RecordJoiner(tail.channels_[channel][run], UtcTime::min(), UtcTime::max()).take(*record);

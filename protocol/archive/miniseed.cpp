@@ -241,7 +241,7 @@ RecordHeader header_of(std::span<const std::byte> bytes, const MSRecord& record)
 
 PackedRecord pack_record(const RecordHeader& header, std::span<const std::int32_t> samples) {
     if (samples.empty()) throw std::invalid_argument("pack_record: no samples");
-    if (header.sequence < 1 || header.sequence > 999'999)
+    if (header.sequence < 1 || header.sequence > kLargestSequence)
         throw std::invalid_argument("pack_record: sequence outside 1 ... 999999");
     const auto lock = lock_libmseed();
     const std::unique_ptr<MSRecord, FreeRecord> record(msr_init(nullptr));
@@ -340,10 +340,6 @@ std::vector<FoundRecord> find_records(std::span<const std::byte> bytes,
         at += is_found ? kRecordSize : 1;
     }
     return found;
-}
-
-double DecodedRecord::rate_hz() const {
-    return header.declared_rate_hz.value_or(header.nominal_rate.value());
 }
 
 UtcTime DecodedRecord::last_sample() const {

@@ -49,6 +49,12 @@ struct RecordHeader {
     bool had_transmission_errors = false;    ///< Data quality flags, bit 5.
     bool is_time_questionable = false;       ///< Data quality flags, bit 7.
     int timing_quality_percent = 0;          ///< Blockette 1001.
+
+    /// Returns the rate as a reader finds it: the declared one if present.
+    [[nodiscard]] double rate_hz() const {
+        return declared_rate_hz ? static_cast<double>(static_cast<float>(*declared_rate_hz))
+                                : nominal_rate.value();
+    }
 };
 
 /// Result of pack_record(); default-constructed it is no record.
@@ -86,7 +92,7 @@ struct DecodedRecord {
     std::vector<std::int32_t> samples;  ///< Raw counts, at least one from decode_record().
 
     /// Returns the rate of blockette 100 if present, else that of the fixed header, in Hz.
-    [[nodiscard]] double rate_hz() const;
+    [[nodiscard]] double rate_hz() const { return header.rate_hz(); }
     /// Returns the time of the last sample.
     [[nodiscard]] UtcTime last_sample() const;
 };

@@ -8,6 +8,9 @@
 
 namespace a351::archive {
 
+/// Returns true if a record is of these codes, whatever its channel.
+[[nodiscard]] bool is_of(const journal::StationCodes& codes, const RecordHeader& header);
+
 /// Joins records to segments.
 class RecordJoiner {
 public:

@@ -177,10 +177,7 @@ void SlowChannels::record(const std::string& channel, const PackedRecord& record
                           std::int64_t last_index) {
     context_.sink.record(channel, record, last_index);
     if (channel != reference_) return;
-    // The rate as a reader finds it in the record.
-    const auto& declared = context_.header.declared_rate_hz;
-    const double rate_hz = declared ? static_cast<double>(static_cast<float>(*declared))
-                                    : context_.header.nominal_rate.value();
+    const double rate_hz = context_.header.rate_hz();
     const Nanoseconds period = from_seconds(1.0 / rate_hz);
     const std::int64_t first_index =
         last_index + 1 - static_cast<std::int64_t>(record.sample_count);

@@ -103,6 +103,12 @@ std::optional<UtcTime> parse_rfc3339_in_zone(std::string_view text, minutes zone
     return parse(text, zone);
 }
 
+std::string to_compact(UtcTime time) {
+    std::string text = to_rfc3339(time);
+    std::erase_if(text, [](char letter) { return letter == '-' || letter == ':'; });
+    return text;
+}
+
 std::string to_rfc3339(UtcTime time, int decimals) {
     const auto day = std::chrono::floor<std::chrono::days>(time);
     const std::chrono::year_month_day date(day);

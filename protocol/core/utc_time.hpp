@@ -67,6 +67,9 @@ using RawTime = RawClock::time_point;
 /// @param decimals  less than 0 counts as 0, more than 9 as 9; with 0 the text has no point.
 [[nodiscard]] std::string to_rfc3339(UtcTime time, int decimals = 0);
 
+/// Returns the second of an instant for names, as "20260301T130000Z".
+[[nodiscard]] std::string to_compact(UtcTime time);
+
 /// Returns the seconds between any two instants; exact to 1 ns up to 104 days.
 ///
 /// The value is negative if `to` is earlier.  Beyond 104 days the steps of a double are wider than

@@ -10,6 +10,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "protocol/text/json_text.hpp"
+
 namespace a351::events {
 
 namespace {
@@ -86,7 +88,7 @@ std::string to_json(const Event& event) {
         if (is_own_key(key)) throw std::invalid_argument("event: detail named " + key);
         json[key] = value;
     }
-    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return text::json_text(json);
 }
 
 std::optional<Event> parse_event(std::string_view text) {

@@ -1,11 +1,11 @@
 #include "protocol/events/occupations.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <map>
 #include <system_error>
 #include <utility>
 
+#include "protocol/core/whole_number.hpp"
 #include "protocol/text/plain_text.hpp"
 
 namespace a351::events {
@@ -57,13 +57,6 @@ void move_start(RunningOccupation& stay, std::vector<UtcTime> starts) {
     stay.index.reset();
 }
 
-/// Returns an instant as YYYYMMDDTHHMMSSZ.
-std::string key_text(UtcTime start) {
-    std::string text = to_rfc3339(start, 0);  // YYYY-MM-DDTHH:MM:SSZ
-    std::erase_if(text, [](char c) { return c == '-' || c == ':'; });
-    return text;
-}
-
 }  // namespace
 
 StatedFace RunningOccupation::face_at(UtcTime time) const {
@@ -73,11 +66,8 @@ StatedFace RunningOccupation::face_at(UtcTime time) const {
 }
 
 std::optional<int> parse_planned_set_ups(std::string_view text) noexcept {
-    int count = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
-    const bool is_whole = error == std::errc() && end == text.data() + text.size();
-    if (!is_whole || !is_planned_set_ups(count)) return std::nullopt;
-    return count;
+    const auto count = parse_whole<int>(text);
+    return count && is_planned_set_ups(*count) ? count : std::nullopt;
 }
 
 void OccupationReplay::take(const Event& event) {
@@ -97,8 +87,8 @@ void OccupationReplay::apply(const Event& event) {
         if (RunningOccupation* const stay = stay_of(event)) stay->not_moved_until = event.utc;
     if (event.type == "note") {
         RunningOccupation* const stay = !event.detail(kKey).empty() ? stay_of(event)
-                                        : running_                   ? &*running_
-                                                                     : nullptr;
+                                        : running_                  ? &*running_
+                                                                    : nullptr;
         if (stay) add_note(stay->note, event);
     }
     if (!running_) return;
@@ -123,7 +113,7 @@ void OccupationReplay::apply(const Event& event) {
 
 std::string OccupationReplay::key_for(UtcTime start) const {
     while (true) {
-        if (std::string key = key_text(start); !keys_.contains(key)) return key;
+        if (std::string key = to_compact(start); !keys_.contains(key)) return key;
         start += std::chrono::seconds(1);
     }
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <charconv>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -11,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "protocol/core/whole_number.hpp"
 #include "protocol/files/file_bytes.hpp"
 #include "protocol/journal/chunk_payload.hpp"
 #include "protocol/journal/journal_compression.hpp"
@@ -239,10 +239,7 @@ std::optional<std::uint64_t> segment_number(const std::filesystem::path& file) {
     const auto bar = name.find('_');
     if (bar == std::string::npos || bar < 8 || bar > 18) return std::nullopt;
     if (name.find(".a351j") == std::string::npos) return std::nullopt;
-    std::uint64_t number = 0;
-    const auto [end, error] = std::from_chars(name.data(), name.data() + bar, number);
-    if (error != std::errc() || end != name.data() + bar) return std::nullopt;
-    return number;
+    return parse_whole<std::uint64_t>(std::string_view(name).substr(0, bar));
 }
 
 std::vector<std::filesystem::path> segment_files(const std::filesystem::path& directory) {

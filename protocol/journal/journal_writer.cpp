@@ -19,10 +19,7 @@ namespace {
 constexpr std::size_t kMostKeptBytes = std::size_t{4} << 20;
 
 std::string segment_name(std::uint64_t number, UtcTime time) {
-    // "2026-03-01T13:00:00Z" without its punctuation.
-    std::string stamp = to_rfc3339(time);
-    std::erase_if(stamp, [](char c) { return c == '-' || c == ':'; });
-    return fmt::format("{:08}_{}.a351j", number, stamp);
+    return fmt::format("{:08}_{}.a351j", number, to_compact(time));
 }
 
 /// Removes a file on a disk so full or faulty that the header could not be written.

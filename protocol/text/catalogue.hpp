@@ -45,6 +45,10 @@ void write_in(Language language) noexcept;
 
 /// Returns the translation of an English text; the text itself if there is none.
 [[nodiscard]] std::string_view translated(std::string_view english, Language language) noexcept;
+/// Returns the translation into the language of this program.
+[[nodiscard]] inline std::string translated(std::string_view english) {
+    return std::string(translated(english, language()));
+}
 
 /// Returns all texts of a catalogue with their translations, in the order of the texts.
 [[nodiscard]] std::vector<std::pair<std::string_view, std::string_view>> catalogue(

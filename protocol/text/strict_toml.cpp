@@ -11,6 +11,7 @@
 #include "protocol/text/aligned_text.hpp"
 #include "protocol/text/csv.hpp"
 #include "protocol/text/echo.hpp"
+#include "protocol/text/json_text.hpp"
 #include "protocol/text/text_file.hpp"
 
 namespace a351::text {
@@ -253,8 +254,7 @@ TomlTable read_toml(const std::filesystem::path& file) {
 std::string toml_string(const std::string& text) {
     // The escapes of JSON are valid in TOML, but DEL must be escaped too.
     std::string result;
-    for (const char c :
-         nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)) {
+    for (const char c : json_text(nlohmann::json(text))) {
         if (c == '\x7f')
             result += "\\u007F";
         else

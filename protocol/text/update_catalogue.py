@@ -3,7 +3,7 @@
 
 usage: update_catalogue.py [--check]
 
-Texts are the first arguments of tr(), message() and marked() in C++, of tr() and marked() in the page's scripts, and the texts of
+Texts are the first arguments of tr(), message() and marked() in C++, of tr() in the page's scripts, and the texts of
 the page itself.  New ones are added with an empty translation, and those that no source has any more are removed.
 --check changes nothing.  Exit status 1: a text is missing in a catalogue, not translated or used no more, or its translation
 has other places for arguments.

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 
+#include "protocol/text/json_text.hpp"
 #include "sim/oven/oven_port.hpp"
 
 namespace a351::sim::command {
@@ -110,8 +111,7 @@ std::string to_json(const ExitReport& report, int indent) {
     };
     if (report.oven) json["oven"] = to_json(*report.oven);
     if (report.outer_oven) json["outer_oven"] = to_json(*report.outer_oven);
-    // The scenario may be a file whose name is not UTF-8: JSON cannot hold such bytes.
-    return json.dump(indent, ' ', false, ordered_json::error_handler_t::replace);
+    return text::json_text(json, indent);
 }
 
 }  // namespace a351::sim::command

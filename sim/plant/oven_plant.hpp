@@ -24,7 +24,6 @@ public:
     [[nodiscard]] virtual DegC controller_reading() const noexcept = 0;
     [[nodiscard]] virtual double drive() const noexcept = 0;  ///< 0 ... 1 of the heater's power.
     [[nodiscard]] virtual DegC set_point() const noexcept = 0;
-    [[nodiscard]] virtual bool is_running() const noexcept = 0;
     [[nodiscard]] virtual bool is_sensor_broken() const noexcept = 0;
     [[nodiscard]] virtual ControllerKind controller() const noexcept = 0;
     [[nodiscard]] virtual ControllerTuning tuning() const noexcept = 0;

@@ -60,7 +60,6 @@ public:
     [[nodiscard]] DegC controller_reading() const noexcept override { return DegC(reading_degc_); }
     [[nodiscard]] double drive() const noexcept override { return drive_; }
     [[nodiscard]] DegC set_point() const noexcept override { return DegC(p_.set_point_degc); }
-    [[nodiscard]] bool is_running() const noexcept override { return is_running_; }
     [[nodiscard]] bool is_sensor_broken() const noexcept override { return is_sensor_broken_; }
     [[nodiscard]] ControllerKind controller() const noexcept override { return p_.controller; }
     [[nodiscard]] ControllerTuning tuning() const noexcept override;

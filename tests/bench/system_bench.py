@@ -3,17 +3,15 @@
 The time is divided by that of the loop of arithmetic of speed.py in the same run.
 """
 
-import json
 import os
 import pathlib
 import signal
 import subprocess
 import time
-import urllib.request
 
 from command_line import command_line
 from speed import used_s
-from programs import BIN, TOOLS, TOP, Scratch, daemon_config, read_json, run, unused_port
+from programs import BIN, TOOLS, TOP, Scratch, answer, daemon_config, read_json, run, unused_port
 
 REAL_TIME_SECONDS = 60
 
@@ -30,11 +28,6 @@ def peak_memory_mb(pid):
     return float("nan")
 
 
-def journaled(port):
-    with urllib.request.urlopen(f"http://127.0.0.1:{port}/api/status", timeout=2) as reply:
-        return json.load(reply)["journaled"]
-
-
 def row(name, value, promise):
     print(f"{name:<56} {value:>12}   promised {promise}")
 
@@ -49,10 +42,10 @@ with Scratch() as scratch:
     daemon = subprocess.Popen([BIN / "a351d", "--config", "a351d.toml"], cwd=scratch,
                               stderr=subprocess.DEVNULL)
     time.sleep(5)
-    first = journaled(port)
+    first = answer(port, "/api/status")["journaled"]
     before = cpu_seconds(daemon.pid)
     time.sleep(REAL_TIME_SECONDS)
-    recorded = journaled(port) - first
+    recorded = answer(port, "/api/status")["journaled"] - first
     row(f"a351d at 50 Hz: samples journaled in {REAL_TIME_SECONDS} s", str(recorded), str(50 * REAL_TIME_SECONDS))
     row("a351d at 50 Hz: processor time of a minute / plain arithmetic", f"{(cpu_seconds(daemon.pid) - before) / loop_s:.2f}", "-")
     row("a351d at 50 Hz: peak memory", f"{peak_memory_mb(daemon.pid):.1f} MB", "< 60 MB")

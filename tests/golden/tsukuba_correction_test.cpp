@@ -16,9 +16,9 @@ using namespace a351::corrector::reading;
 namespace {
 
 /// Coefficients as printed in the publication's figure 13.
-const TemperatureLine kPrintedLine{-29.274, 3085.2, 0.9264};
+const Line kPrintedLine{-29.274, 3085.2, 0.9264};
 
-TemperatureLine own_line(const std::vector<SurveyRow>& rows) {
+Line own_line(const std::vector<SurveyRow>& rows) {
     return fit_temperature_line(rows, tsukuba::unflagged()).value();
 }
 
@@ -48,7 +48,7 @@ Line line_of(const std::vector<double>& x, const std::vector<double>& y,
         xs.push_back(x[i]);
         ys.push_back(y[i]);
     }
-    return fit_line(xs, ys).value();
+    return line_through(xs, ys).value();
 }
 
 std::vector<double> references(const std::vector<SurveyRow>& rows) {

@@ -13,7 +13,7 @@ import sys
 
 from browser import Browser
 from emulated_session import Session, wait_for
-from programs import BIN, Scratch, daemon_config, demand, run, skip, unused_port
+from programs import BIN, Scratch, answer, daemon_config, demand, run, skip, unused_port
 
 ADDRESS = "192.0.2.7"  # Of a range for documentation, RFC 5737.
 NETWORK = ('ip link set lo up && (ip link add field0 type dummy 2>/dev/null || ip link add field0 type bridge) && '
@@ -49,25 +49,15 @@ def decoded(text, scratch):
 
 
 def show_code(session, scratch):
-    shown = session.run("phone")
+    shown = session.ctl("phone")
     code, url = shown.rstrip("\n").rsplit("\n", 1)
-    token = json.loads(session.ctl_get("/api/token"))["token"]
+    token = answer(session.port, "/api/token")["token"]
     demand("the address has the token in its fragment", url == f"http://{ADDRESS}:{session.port}/#token={token}")
     if shutil.which("zbarimg"):
         demand("a reader of codes sees this address", decoded(code, scratch) == url)
     else:
         print("skipped: the code is not read, zbar-tools is missing")
     return url, token
-
-
-class PhoneSession(Session):
-    def run(self, *words, check=True):
-        result = run(BIN / "a351ctl", "--url", f"http://127.0.0.1:{self.port}", *words, check=check)
-        return result.stdout if check else (result.returncode, result.stderr)
-
-    def ctl_get(self, path):
-        return run("python3", "-c", "import sys, urllib.request; print(urllib.request.urlopen(sys.argv[1]).read().decode())",
-                   f"http://127.0.0.1:{self.port}{path}").stdout
 
 
 def open_on_phone(session, browser, url, token):
@@ -100,16 +90,16 @@ def open_on_phone(session, browser, url, token):
 
 enter_own_network()
 with Scratch() as scratch:
-    loopback = PhoneSession(scratch, speed=1)
+    loopback = Session(scratch, speed=1)
     loopback.wait_for_frames(20)
-    code, said = loopback.run("phone", check=False)
-    demand(f"a daemon on loopback: status 1 and what to set: {said.strip()}",
-           code == 1 and re.search(r'set listen = "0.0.0.0:\d+" in \[page\]', said) is not None)
+    told = loopback.try_ctl("phone")
+    demand(f"a daemon on loopback: status 1 and what to set: {told.stderr.strip()}",
+           told.returncode == 1 and re.search(r'set listen = "0.0.0.0:\d+" in \[page\]', told.stderr) is not None)
 with Scratch() as scratch, Browser(allowed_errors=["status of 403"], may_ask={ADDRESS}, rules=f"MAP * ~NOTFOUND, EXCLUDE {ADDRESS}") as page:
-    open_session = PhoneSession(scratch, speed=1, host="0.0.0.0")
+    open_session = Session(scratch, speed=1, host="0.0.0.0")
     open_session.wait_for_frames(20)
-    code, said = open_session.run("phone", "192.0.2.8", check=False)
-    demand(f"another address is refused: {said.strip()}", code == 1 and f"allowed: {ADDRESS}" in said)
+    told = open_session.try_ctl("phone", "192.0.2.8")
+    demand(f"another address is refused: {told.stderr.strip()}", told.returncode == 1 and f"allowed: {ADDRESS}" in told.stderr)
     open_on_phone(open_session, page, *show_code(open_session, scratch))
 
 TOKEN = "token-of-one-address"

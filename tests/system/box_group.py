@@ -4,7 +4,7 @@ import datetime
 import signal
 
 from emulated_session import Session, wait_for
-from programs import BIN, ONE_SITE, instant, run
+from programs import BIN, instant, one_site, run
 
 SITES = "site,longitude_deg,latitude_deg,altitude_m,gravity_mgal\nNo.1,140.1,36.1,26,\nNo.2,140.2,36.2,30,\n"
 SAMPLE_S = 0.02
@@ -27,7 +27,7 @@ class Boxes:
     def __init__(self, scratch, count):
         start = datetime.datetime.now(datetime.timezone.utc) - datetime.timedelta(seconds=1)
         start = start.strftime("%Y-%m-%dT%H:%M:%SZ")
-        scenario = f'base = "quiet"\nname = "boxes"\n[schedule]\nstart_utc = "{start}"\nduration_h = 2.0\n' + ONE_SITE
+        scenario = one_site("quiet", start, 2)
         self.sessions = []
         for i in range(count):
             folder = scratch / f"box{i}"
@@ -36,7 +36,7 @@ class Boxes:
             (folder / "sites.csv").write_text(SITES)
             self.sessions.append(Session(folder, speed=1, scenario="boxes.toml", start=start, on_host_clock=True,
                                          config='[survey]\nsites = "sites.csv"\n'))
-        self.urls = [f"http://127.0.0.1:{session.port}" for session in self.sessions]
+        self.urls = [session.url for session in self.sessions]
         for session in self.sessions:
             with open(session.scratch / "a351d.toml", "a") as config:
                 config.write(f"boxes = {self.urls}\n".replace("'", '"'))

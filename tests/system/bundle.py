@@ -10,7 +10,7 @@ import subprocess
 import time
 
 from emulated_session import Session, told_at, wait_for
-from programs import BIN, IS_SANITIZED, Scratch, demand, rows, run, short_day, together
+from programs import BIN, IS_SANITIZED, Scratch, contents, demand, rows, run, short_day, together
 
 SPEED = 60 if IS_SANITIZED else 800
 TOKEN = "a-token-that-nobody-else-may-see-0123456789"
@@ -23,7 +23,7 @@ def with_token(scratch):
 
 def bundle(session, out, check=True):
     begin = time.monotonic()
-    result = run(BIN / "a351ctl", "--url", f"http://127.0.0.1:{session.port}", "bundle", "--out", out, check=check)
+    result = run(BIN / "a351ctl", "--url", session.url, "bundle", "--out", out, check=check)
     print(f"{result.stdout}{result.stderr}in {time.monotonic() - begin:.1f} s", flush=True)
     return result
 
@@ -35,13 +35,8 @@ def unpacked(file, into):
     (folder,) = into.iterdir()
     run("sha256sum", "--check", "--strict", "--quiet", "SHA256SUMS", cwd=folder)
     listed = {line.split("  ")[1] for line in (folder / "SHA256SUMS").read_text().splitlines()}
-    there = {str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file()}
-    demand(f"sha256sum accepts each of the {len(listed)} files of {file.name}", there == listed | {"SHA256SUMS"})
+    demand(f"sha256sum accepts each of the {len(listed)} files of {file.name}", contents(folder).keys() == listed | {"SHA256SUMS"})
     return folder
-
-
-def contents(folder):
-    return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
 
 
 def interrupted(session, folder):
@@ -50,7 +45,7 @@ def interrupted(session, folder):
 
     def grows():
         if not copies or copies[-1].poll() is not None:  # On a busy host the daemon may still be at two that have ended.
-            copies.append(subprocess.Popen([BIN / "a351ctl", "--url", f"http://127.0.0.1:{session.port}", "bundle", "--out",
+            copies.append(subprocess.Popen([BIN / "a351ctl", "--url", session.url, "bundle", "--out",
                                             folder / "day.tar"], stderr=subprocess.PIPE, text=True))
         return any(part.stat().st_size > 1_000_000 for part in folder.glob(".day.tar.*.part"))
     wait_for("a copy grows", grows, 60)

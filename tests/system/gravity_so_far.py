@@ -7,12 +7,10 @@ corrector finds in a copy of the data root.  The recording must not notice any o
 import json
 import math
 import shutil
-import signal
 import time
-import urllib.request
 
 from emulated_session import Session, told_at, wait_for
-from programs import BIN, IS_SANITIZED, Scratch, demand, rows, run
+from programs import BIN, IS_SANITIZED, Scratch, answer, demand, end_cleanly, rows, run
 
 SPEED = 60 if IS_SANITIZED else 800
 MOST_S = 15.0
@@ -24,8 +22,7 @@ DAY = 'base = "tsukuba"\nname = "tsukuba-gravity"\n' + "".join(
 
 
 def survey(session):
-    with urllib.request.urlopen(f"http://127.0.0.1:{session.port}/api/survey", timeout=10) as reply:
-        return json.load(reply)
+    return answer(session.port, "/api/survey", 10)
 
 
 def is_there(document, site, number, is_running):
@@ -78,8 +75,7 @@ with Scratch() as scratch:
         demand(f"{stay['site']} ({stay['occupation']}): {error:+.2f} mGal from the truth, limit 4 u",
                math.fabs(error) < 4.0 * stay["u_mgal"])
     memory_mb = next(int(line.split()[1]) for line in open(f"/proc/{session.daemon.pid}/status") if line.startswith("VmHWM")) / 1000
-    session.daemon.send_signal(signal.SIGTERM)
-    demand("the daemon ends cleanly", session.daemon.wait(timeout=30) == 0)
+    end_cleanly("the daemon", session.daemon)
     session.archive_is_true(missing=0)
     demand(f"the daemon needed {memory_mb:.1f} MB, limit {MOST_MEMORY_MB:.0f}", memory_mb < MOST_MEMORY_MB
            or IS_SANITIZED)

@@ -21,17 +21,14 @@ import signal
 import threading
 import time
 
-from emulated_session import INTACT, Session, wait_for
-from programs import IS_LONG, TOOLS, Scratch, daemon_status, demand, instant, run, skip
+from emulated_session import DELAY_NS, INTACT, Session, wait_for
+from programs import IS_LONG, TOOLS, Scratch, contents, daemon_status, demand, end_cleanly, instant, run, skip
 
 RATE_HZ = 50
 LOSS_S = 0.2  # Largest loss before a kill, in s of real time.
 LATE_S = 0.1  # Largest lateness of the emulator, in s of real time.  If it is later, the host has delayed the daemon too.
 TRIALS = 3
 LEFT_OPEN = 200  # Frames of the last stream; with fewer than about 100 a clean end leaves archiving to the next start.
-# Delay from the time of a sample to the sending of its frame: 511 / 2 samples of the filter at 4000 Hz, 430 us to data
-# ready, 24 bytes of 10 bits at 460800 baud (M-A352AD10 data sheet, 5.4, table 2.2, 6.2).
-DELAY_NS = 63_875_000 + 430_000 + 24 * 10 * 1_000_000_000 // 460_800
 # Largest time error of any sample, in s of simulated time, by speed.  In host time the limit is 10 ms at both speeds.
 TIME_ERROR_S = {1: 0.01, 20: 0.2}
 
@@ -124,7 +121,7 @@ class Killed(Session):
         return (self.scratch / "a351d.log").read_text()
 
     def files(self):
-        return {file: file.read_bytes() for file in sorted((self.scratch / "data" / "archive").rglob("*.D.*"))}
+        return contents(self.scratch / "data" / "archive", "*.D.*")
 
     def is_archive_whole(self):
         return all(data[at:at + 6].isdigit() and data[at + 6:at + 7] == b"D" for data in self.files().values()
@@ -134,8 +131,7 @@ class Killed(Session):
         before = self.files()
         self.start_again()
         wait_for("the journal is replayed", lambda: "records added" in self.said_by_last())
-        self.daemon.send_signal(signal.SIGTERM)
-        demand("a daemon without its sensor ends cleanly", self.daemon.wait(timeout=30) == 0)
+        end_cleanly("a daemon without its sensor", self.daemon)
         said = [line for line in self.said_by_last().splitlines() if "recovery" in line]
         demand(f"a start after a clean end adds no record and reports no error: {said}",
                len(said) == 1 and " 0 records added" in said[0])
@@ -213,9 +209,6 @@ def session_of_kills(number, kills, speed):
         parts = session.journal()
         session.archive_is_journal(parts)
         counted = session.counted()
-        demand(f"the archive compares with the truth in four channels: {list(counted)}", len(counted) == 4)
-        for name, channel in counted.items():
-            demand(f"{name}: nothing altered or duplicated", channel["altered"] == channel["duplicated"] == 0)
         gaps = session.gaps(parts)
         late_s = report["largest_lateness_real_s"]
         time_error_s = max(channel["largest_time_error_s"] for channel in counted.values())

@@ -6,16 +6,12 @@ import signal
 import time
 
 from emulated_session import Session, wait_for
-from programs import BIN, IS_SANITIZED, Scratch, demand, events_of, run
+from programs import IS_SANITIZED, Scratch, demand, events_of
 
 G_MGAL = 980665.0
 MOST_S = 40 if IS_SANITIZED else 10
 SLOWER = 3 if IS_SANITIZED else 1  # Factor of lower speed and longer timeouts for slow programs, so that the daemon keeps up.
 COUNTS_PER_G = 1 << 24
-
-
-def ctl(session, *order, check=True):
-    return run(BIN / "a351ctl", "--url", f"http://127.0.0.1:{session.port}", *order, check=check)
 
 
 def word(session):
@@ -40,7 +36,7 @@ with Scratch() as scratch:
     def logged():
         return [event["word"] for event in events_of(scratch / "data") if event["type"] == "signal"]
 
-    print(ctl(session, "start", "No.0").stdout, end="")
+    print(session.ctl("start", "No.0"), end="")
     wait_for("keep off while the set-up runs", lambda: word(session) == "keep_off", 20)
     wait_for("the stay may end when the plan is complete", lambda: word(session) == "go", 60 * SLOWER)
     demand("at YOU CAN GO the plan has no time left", session.status()["occupation"]["set_up_left_s"] == 0)
@@ -78,13 +74,13 @@ with Scratch() as scratch:
         wait_for("the reading continues", lambda: session.status()["occupation"]["reading"]["used_s"] > used_s, 20)
 
     demand("a damaged line of the event log is named", ".jsonl:" in log.read_text() and ": not an event, left out" in log.read_text())
-    print(ctl(session, "stop").stdout, end="")
-    stay = json.loads(ctl(session, "list", "--json").stdout)["occupations"][0]
+    print(session.ctl("stop"), end="")
+    stay = json.loads(session.ctl("list", "--json"))["occupations"][0]
     start, end, reading = stay["set_ups"][0]["start"], stay["set_ups"][-1]["end"], stay["reading"]["value_mgal"]
     session.order("silence seconds=100000")
     wait_for("NO DATA with the age of the last sample",
              lambda: word(session) == "no_data" and "last " in session.status()["signal"]["sentence"], 10)
-    status = ctl(session, "status", check=False)
+    status = session.try_ctl("status")
     demand("a351ctl status ends with 1 or more, and begins with the state", status.returncode >= 1)
 
     session.sim.send_signal(signal.SIGTERM)

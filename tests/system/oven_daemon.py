@@ -5,13 +5,12 @@ unplugged, is a warning of its own, ends without a restart, and costs no sample 
 all faults of the line.
 """
 
-import json
 import struct
 import urllib.request
 import xml.etree.ElementTree as ElementTree
 
 from emulated_session import Session, wait_for
-from programs import BIN, TOOLS, Scratch, daemon_config, daemon_status, demand, read_json, run, unused_port
+from programs import TOOLS, Scratch, answer, daemon_config, daemon_status, demand, read_json, run, unused_port
 from stranger_journal import journal
 
 OVENS = """[oven]
@@ -62,15 +61,14 @@ def show(session):
     demand(f"the status shows the values of both: {inner}, {outer}", abs(inner["process_value_degc"] - 42.5) < 1.5
            and inner["set_point_degc"] == 42.5 and abs(outer["process_value_degc"] - 38.0) < 1.6
            and outer["set_point_degc"] == 38.0)
-    url = f"http://127.0.0.1:{session.port}"
-    screen = run(BIN / "a351ctl", "--url", url, "status", check=False).stdout.splitlines()
+    screen = session.try_ctl("status").stdout.splitlines()
     demand("a351ctl has a line for each oven", any(line.startswith("oven ") and "set point 42.5 degC" in line
                                                    for line in screen)
            and any(line.startswith("outer oven") and "set point 38.0 degC" in line for line in screen))
-    points = json.load(urllib.request.urlopen(f"{url}/api/history?channel=outer_oven"))["points"]
+    points = answer(session.port, "/api/history?channel=outer_oven")["points"]
     demand(f"the page's history has {len(points)} values of the outer oven",
            points and all(abs(value - 38.0) < 1.6 and set_point == 38.0 for _, value, set_point in points))
-    metrics = urllib.request.urlopen(f"{url}/metrics").read().decode()
+    metrics = urllib.request.urlopen(f"{session.url}/metrics").read().decode()
     demand("the metrics have the outer oven", 'a351_temperature_celsius{at="outer_oven"}' in metrics)
 
 

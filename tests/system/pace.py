@@ -7,13 +7,10 @@ import statistics
 import subprocess
 import time
 
-from programs import BIN, IS_LONG, IS_SANITIZED, Scratch, demand, read_json, run
+from emulated_session import DELAY_NS, FRAME
+from programs import BIN, IS_LONG, IS_SANITIZED, Scratch, demand, end_cleanly, read_json, start_of
 
 SECONDS = 600 if IS_LONG else 20
-FRAME = 24
-# Delay from a sample to its frame, in ns: 511 / 2 samples of the filter at 4000 Hz, 430 us to data ready, 24 bytes of
-# 10 bits at 460800 baud (M-A352AD10 data sheet, 5.4, table 2.2, 6.2).
-DELAY_NS = 63_875_000 + 430_000 + 24 * 10 * 1_000_000_000 // 460_800
 START_LOGGING = "FE010D 85060D 86060D 88010D 8C030D 8DC70D FE000D 83010D"
 
 
@@ -31,8 +28,7 @@ def listen(port, seconds):
 
 
 with Scratch() as scratch:
-    plan = run(BIN / "a351-sim", "plan", "--scenario", "tsukuba", "--out", scratch)
-    start = dict(part.split("=", 1) for part in plan.stdout.split())["start_utc"]
+    start = start_of("tsukuba", scratch)
     host_ns = time.time_ns() // 1000 * 1000
     host = datetime.datetime.fromtimestamp(host_ns // 10**9, datetime.timezone.utc).strftime("%Y-%m-%dT%H:%M:%S")
     sim = subprocess.Popen(
@@ -46,8 +42,7 @@ with Scratch() as scratch:
     arrivals = listen(port, SECONDS)
     os.write(port, bytes.fromhex("83020D"))
     time.sleep(0.5)
-    sim.terminate()
-    demand("the emulator ends cleanly", sim.wait(timeout=30) == 0)
+    end_cleanly("the emulator", sim)
     os.close(port)
     report = read_json(scratch / "report.json")
 

@@ -5,7 +5,7 @@ the same bytes would be a temperature of half a million degrees.
 """
 
 from emulated_session import Session
-from programs import BIN, TOP, Scratch, demand, refused, run
+from programs import BIN, TOP, Scratch, contents, demand, refused, run
 
 SLOPE_DEGC = -0.0037918
 OVEN_DEGC = 42.5
@@ -14,10 +14,6 @@ OVEN_DEGC = 42.5
 def write_profile(file):
     text = (TOP / "config" / "profiles" / "A352AD10.toml").read_text()
     file.write_text(text.replace(f"slope_degc = {SLOPE_DEGC}", f"slope_degc = {SLOPE_DEGC / 65536!r}"))
-
-
-def files_below(root):
-    return {str(file.relative_to(root)): file.read_bytes() for file in root.rglob("*") if file.is_file()}
 
 
 with Scratch() as scratch:
@@ -48,8 +44,8 @@ with Scratch() as scratch:
     # Without the file of the profile the journal still says how to read its bytes.
     (scratch / "fine.toml").unlink()
     run(*retime, "again", cwd=scratch)
-    archives = [files_below(scratch / root / "archive") for root in ("data", "again")]
+    archives = [contents(scratch / root / "archive") for root in ("data", "again")]
     demand(f"re-timing finds the profile in the journal: {archives[1].keys()}", archives[1] and archives[1].keys() == archives[0].keys())
-    differing = [name for name, content in files_below(scratch / "again").items() if files_below(scratch / "named").get(name) != content]
+    differing = [name for name, content in contents(scratch / "again").items() if contents(scratch / "named").get(name) != content]
     demand(f"the profile of the record named makes no difference: {differing}", not differing)
-    demand("another profile does", files_below(scratch / "again") != files_below(scratch / "shifted"))
+    demand("another profile does", contents(scratch / "again") != contents(scratch / "shifted"))

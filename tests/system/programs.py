@@ -26,8 +26,15 @@ SKIPPED = 77
 MEMORY = pathlib.Path("/dev/shm")
 os.environ["A351_LANG"] = "en"  # Tests read English, whatever the host speaks.
 
-# Last part of a test's scenario: one site and a constant ambient temperature.
-ONE_SITE = """[[site]]
+
+def one_site(base, start_utc, hours):
+    """Returns a scenario with one site and a constant ambient temperature; further tables may follow."""
+    return f"""base = "{base}"
+name = "one-site"
+[schedule]
+start_utc = "{start_utc}"
+duration_h = {float(hours)}
+[[site]]
 name = "here"
 longitude_deg = 140.0
 latitude_deg = 36.0
@@ -96,11 +103,16 @@ listen = "{host}:{port}"
 """
 
 
+def answer(port, path, timeout_s=2):
+    """Returns the JSON that the daemon on that port answers."""
+    with urllib.request.urlopen(f"http://127.0.0.1:{port}{path}", timeout=timeout_s) as reply:
+        return json.load(reply)
+
+
 def daemon_status(port):
     """Returns the status of the daemon on that port; None while it does not answer."""
     try:
-        with urllib.request.urlopen(f"http://127.0.0.1:{port}/api/status", timeout=2) as reply:
-            return json.load(reply)
+        return answer(port, "/api/status")
     except (OSError, http.client.HTTPException):  # HTTPException: the daemon ended during its answer.
         return None
 
@@ -151,15 +163,38 @@ def write_sites(file, table, gravity_of):
     file.write_text("\n".join([",".join([*columns, "gravity_mgal"]), *lines]) + "\n")
 
 
+def fields(line):
+    """Returns the parts key=value of a line."""
+    return dict(part.split("=", 1) for part in line.split())
+
+
+def start_of(scenario, folder):
+    """Plans a scenario in a folder and returns the begin of its record."""
+    return fields(run(BIN / "a351-sim", "plan", "--scenario", scenario, "--out", ".", cwd=folder).stdout)["start_utc"]
+
+
+def contents(folder, pattern="*"):
+    """Returns the bytes of the files below a folder, by their path in it."""
+    return {path.relative_to(folder).as_posix(): path.read_bytes()
+            for path in sorted(pathlib.Path(folder).rglob(pattern)) if path.is_file()}
+
+
+def end_cleanly(name, process, seconds=30):
+    process.terminate()
+    demand(f"{name} ends cleanly", process.wait(timeout=seconds) == 0)
+
+
 def compare_truth(archive, truth):
-    """Runs tests/support/compare_truth.cpp and returns its counts by channel."""
+    """Runs tests/support/compare_truth.cpp and returns its counts by channel; no frame may be altered or duplicated."""
     result = run(TOOLS / "compare-truth", archive, truth, check=False)
     print(result.stdout, result.stderr, sep="")
     channels = {}
     for line in result.stdout.splitlines():
-        fields = dict(part.split("=") for part in line.split())
-        name = fields.pop("channel")
-        channels[name] = {key: float(value) for key, value in fields.items()}
+        counts = fields(line)
+        name = counts.pop("channel")
+        channels[name] = one = {key: float(value) for key, value in counts.items()}
+        demand(f"{name}: the archive holds no damaged, lost, repeated or altered frame",
+               one["altered"] == one["duplicated"] == 0 < one["matched"])
     demand(f"four channels of {archive} were compared with the truth", len(channels) == 4)
     return channels
 

@@ -4,17 +4,12 @@ import json
 import re
 import sys
 
-from programs import BIN, ONE_SITE, TOP, Scratch, demand, events_of, run
+from programs import BIN, TOP, Scratch, demand, events_of, one_site, run
 from stranger_journal import RX, journal, received
 
 SPEED = 500
 # Three stays of the day; the emulator's own schedule of set-ups does not matter.
-SCENARIO = """base = "ideal"
-name = "short"
-[schedule]
-start_utc = "2017-07-15T23:40:00Z"
-duration_h = 1.0
-""" + ONE_SITE.replace('"here"', '"No.0"')
+SCENARIO = one_site("ideal", "2017-07-15T23:40:00Z", 1).replace('"here"', '"No.0"')
 
 
 def at(minute, second=0):

@@ -8,17 +8,11 @@ import subprocess
 import time
 
 from emulated_session import Session, wait_for
-from programs import IS_SANITIZED, ONE_SITE, Scratch, demand, unused_port
-from seedlink import day_files, is_listening, program
+from programs import IS_SANITIZED, Scratch, contents, demand, one_site, unused_port
+from seedlink import is_listening, program
 
 # Starts ten minutes before midnight and ends at least ten minutes after it: two day files of each channel.
-SCENARIO = """base = "quiet"
-name = "midnight"
-[schedule]
-start_utc = "2017-07-15T23:50:00Z"
-duration_h = 10.0
-""" + ONE_SITE
-START = "2017-07-15T23:50:00Z"
+SCENARIO = one_site("quiet", "2017-07-15T23:50:00Z", 10)
 SPEED = 40 if IS_SANITIZED else 100
 FRAMES = 20 * 60 * 50
 
@@ -40,14 +34,14 @@ with Scratch() as scratch:
                                f"127.0.0.1:{port}"], cwd=scratch, stdout=log, stderr=log)
     wait_for("slarchive is connected", lambda: "accepted" in (scratch / "slarchive.log").read_text())
     (scratch / "midnight.toml").write_text(SCENARIO)
-    session = Session(scratch, speed=SPEED, scenario="midnight.toml", start=START)
+    session = Session(scratch, speed=SPEED, scenario="midnight.toml")
     try:
         session.wait_for_frames(FRAMES)
-        while_growing = sum(len(data) for data in day_files(fetched).values())
+        while_growing = sum(len(data) for data in contents(fetched, "*.D.*").values())
         session.end()
-        written = day_files(archive)
-        wait_for("all written data are fetched", lambda: day_files(fetched).keys() == written.keys() and all(
-            len(data) >= len(written[name]) for name, data in day_files(fetched).items()))
+        written = contents(archive, "*.D.*")
+        wait_for("all written data are fetched", lambda: contents(fetched, "*.D.*").keys() == written.keys() and all(
+            len(data) >= len(written[name]) for name, data in contents(fetched, "*.D.*").items()))
         for name, data in written.items():
             (archive / f"{name}.tmp").write_bytes(data[:512])
             (archive / f"{name}.512.torn").write_bytes(data[512:1024])
@@ -57,7 +51,7 @@ with Scratch() as scratch:
         for process in (client, server):
             process.send_signal(signal.SIGTERM)
             process.wait(timeout=30)
-    came, size = day_files(fetched), sum(len(data) for data in written.values())
+    came, size = contents(fetched, "*.D.*"), sum(len(data) for data in written.values())
     print(f"{len(written)} day files, {size} bytes; {while_growing} bytes were fetched while the files grew")
     channels, days = {name.split(".")[-4] for name in written}, {name.rsplit(".", 1)[1] for name in written}
     demand(f"channels {', '.join(sorted(channels))} on days {', '.join(sorted(days))}",

@@ -8,7 +8,7 @@ import re
 import shutil
 import time
 
-from programs import BIN, IS_LONG, IS_SANITIZED, TOOLS, TOP, Scratch, demand, read_json, run, together
+from programs import BIN, IS_LONG, IS_SANITIZED, TOOLS, TOP, Scratch, contents, demand, read_json, run, together
 
 GOLDEN = TOP / "tests" / "golden" / "tsukuba"
 FILES = {"occupations.csv", "stations.csv", "models.csv", "result.json", "stations.geojson", "gsadjust.csv",
@@ -37,8 +37,7 @@ def foreign(scratch):
 
 def content(folder, promised=FILES):
     """Returns the bytes of every file in the folder; demands that the promised files are among them."""
-    files = {path.relative_to(folder).as_posix(): path.read_bytes()
-             for path in sorted(folder.rglob("*")) if path.is_file()}
+    files = contents(folder)
     demand(f"{folder.name}: all promised files exist", promised <= set(files))
     return files
 

@@ -1,7 +1,6 @@
 """EarthScope's programs for SeedLink (https://github.com/EarthScope) in the system tests, and the day files that they copy."""
 
 import os
-import pathlib
 import shutil
 import socket
 import subprocess
@@ -22,12 +21,6 @@ def program(name, is_needed=True):
         version = subprocess.run([found, "-V"], capture_output=True, text=True)
         print((version.stdout + version.stderr).strip())
     return found
-
-
-def day_files(root):
-    """Returns the contents of all day files below `root`, by their path."""
-    root = pathlib.Path(root)
-    return {str(file.relative_to(root)): file.read_bytes() for file in root.rglob("*.D.*")}
 
 
 def is_listening(port):

@@ -12,7 +12,7 @@ import subprocess
 import time
 
 from emulated_session import wait_for
-from programs import BIN, IS_SANITIZED, TOP, Scratch, daemon_config, daemon_status, demand, run, skip
+from programs import BIN, IS_SANITIZED, TOP, Scratch, daemon_config, daemon_status, demand, end_cleanly, run, skip
 
 PORT = 28352
 UNIT = TOP / "config" / "a351d@.service"
@@ -30,11 +30,6 @@ def start(scratch, tracer=(), **environment):
     for process in (sim, daemon):
         atexit.register(process.kill)
     return sim, daemon
-
-
-def end(sim):
-    sim.send_signal(signal.SIGTERM)
-    demand("the emulator ends cleanly", sim.wait(timeout=30) == 0)
 
 
 def told(manager):
@@ -65,10 +60,9 @@ def notices():
         time.sleep(2.5)
         demand("a stopped daemon sends no watchdog signal, so that systemd restarts it", told(manager) == [])
         daemon.send_signal(signal.SIGCONT)
-        daemon.send_signal(signal.SIGTERM)
-        demand("the daemon ends cleanly", daemon.wait(timeout=30) == 0)
+        end_cleanly("the daemon", daemon)
         demand("the last notification is STOPPING=1", told(manager)[-1] == "STOPPING=1")
-        end(sim)
+        end_cleanly("the emulator", sim)
 
 
 def unit_is_clean(scratch, source):
@@ -108,7 +102,7 @@ def calls_are_allowed(scratch):
     child = pathlib.Path(f"/proc/{daemon.pid}/task/{daemon.pid}/children").read_text().split()[0]
     run("kill", "-TERM", child)
     demand("the daemon ends cleanly under strace", daemon.wait(timeout=60) == 0)
-    end(sim)
+    end_cleanly("the emulator", sim)
     made = set(re.findall(r"^\d+ +(\w+)\(", (scratch / "calls").read_text(), re.M)) - {"execve"}
     demand(f"the daemon made {len(made)} different calls, including fdatasync and adjtimex",
            "fdatasync" in made and bool({"adjtimex", "clock_adjtime"} & made))

@@ -13,18 +13,12 @@ import time
 from datalink_ring import Ring
 from emulated_session import Session
 from mseed_records import begin_of
-from programs import BIN, IS_LONG, IS_SANITIZED, ONE_SITE, Scratch, demand, instant, unused_port
+from programs import BIN, IS_LONG, IS_SANITIZED, Scratch, demand, instant, one_site, unused_port
 
 SECONDS = 60 if IS_LONG else 30
 MOST_S = 2.0
 TIME_ERROR_S = 0.01  # That of kill_daemon.py at factor 1.
-START = "2017-07-15T23:59:45Z"  # A quarter of a minute before midnight.
-SCENARIO = f"""base = "quiet"
-name = "short-records"
-[schedule]
-start_utc = "{START}"
-duration_h = 10.0
-""" + ONE_SITE
+SCENARIO = one_site("quiet", "2017-07-15T23:59:45Z", 10)  # A quarter of a minute before midnight.
 
 
 def latencies(session, ring):
@@ -56,7 +50,7 @@ with Scratch() as scratch:
     ring = Ring(unused_port())
     ring.start()
     stream = subprocess.Popen([BIN / "a351-stream", "data", f"127.0.0.1:{ring.port}"], cwd=scratch)
-    session = Session(scratch, speed=1, scenario="short-records.toml", start=START, storage="record_age_s = 1\n")
+    session = Session(scratch, speed=1, scenario="short-records.toml", storage="record_age_s = 1\n")
     try:
         oldest, newest = latencies(session, ring)
     finally:

@@ -5,12 +5,11 @@ A351_LONG=1: the scenario `week`, seven days in ten minutes; otherwise its first
 
 import os
 import pathlib
-import signal
 import statistics
 import time
 
 from emulated_session import Session, wait_for
-from programs import IS_LONG, IS_SANITIZED, Scratch, demand, read_json
+from programs import IS_LONG, IS_SANITIZED, Scratch, demand, end_cleanly, read_json
 
 SPEED = 150 if IS_SANITIZED else 1000
 HOURS = 168 if IS_LONG else 4
@@ -60,8 +59,7 @@ with Scratch() as scratch:
     print(f"the emulator ends with {session.sim.wait(timeout=600)}")
     time.sleep(1.0)
     heard = session.status()["counters"]["frames"]
-    session.daemon.send_signal(signal.SIGTERM)
-    demand("the daemon ends cleanly", session.daemon.wait(timeout=60) == 0)
+    end_cleanly("the daemon", session.daemon, 60)
     report = read_json(scratch / "report.json")
 
     print("hour  memory_mb  descriptors  threads")

@@ -15,17 +15,11 @@ import time
 from datalink_ring import Ring, fdsn_name
 from emulated_session import Session, wait_for
 from mseed_records import begin_of
-from programs import BIN, IS_SANITIZED, ONE_SITE, Scratch, demand, instant, run, unused_port
+from programs import BIN, IS_SANITIZED, Scratch, demand, instant, one_site, run, unused_port
 
 SEED = 7
 SPEED = 20 if IS_SANITIZED else 60
-SCENARIO = """base = "quiet"
-name = "midnight"
-[schedule]
-start_utc = "2017-07-15T23:52:00Z"
-duration_h = 10.0
-""" + ONE_SITE
-START = "2017-07-15T23:52:00Z"
+SCENARIO = one_site("quiet", "2017-07-15T23:52:00Z", 10)
 FRAMES = 16 * 60 * 50
 RECORD = 512
 SEVEN_MOODS = ["mute", "forgetful", "refuse", "flood", "deaf", "forgetful", "babble"]
@@ -120,7 +114,7 @@ def live(scratch):
     patient.moods = ["deaf"]
     patient.start()
     waiting = Client(scratch / "data", patient.port, scratch / "waiting.log", scratch / "waiting.positions")
-    session = Session(scratch, speed=SPEED, scenario="midnight.toml", start=START)
+    session = Session(scratch, speed=SPEED, scenario="midnight.toml")
     stop, faults = threading.Event(), []
     trouble = threading.Thread(target=trouble_for, args=(ring, client, stop, faults))
     trouble.start()

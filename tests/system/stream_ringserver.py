@@ -12,8 +12,8 @@ import sys
 import time
 
 from emulated_session import Session, wait_for
-from programs import BIN, IS_LONG, IS_SANITIZED, ONE_SITE, Scratch, demand, unused_port
-from seedlink import day_files, is_listening, program
+from programs import BIN, IS_LONG, IS_SANITIZED, Scratch, contents, demand, one_site, unused_port
+from seedlink import is_listening, program
 from with_obspy import HINT, has_obspy
 
 if has_obspy():
@@ -109,12 +109,7 @@ slinktool = program("slinktool", is_needed=False)
 if slinktool:
     RESTARTED = (*RESTARTED, "slinktool")
 chance = random.Random(SEED)
-scenario = f"""base = "quiet"
-name = "restarts"
-[schedule]
-start_utc = "{START}"
-duration_h = {MINUTES / 60 + 10}
-""" + ONE_SITE
+scenario = one_site("quiet", START, MINUTES / 60 + 10)
 
 with Scratch() as scratch:
     archive, fetched, port = scratch / "data" / "archive", scratch / "fetched", unused_port()
@@ -146,7 +141,7 @@ with Scratch() as scratch:
     counts = dict.fromkeys(RESTARTED, 0)
     try:
         # Without a first record a client has no position: after a restart it would begin with the next one.
-        wait_for("every client has a record", lambda: day_files(fetched) and all(one.exists() and one.stat().st_size for one in dumps), 180)
+        wait_for("every client has a record", lambda: contents(fetched, "*.D.*") and all(one.exists() and one.stat().st_size for one in dumps), 180)
         begin, seconds = time.monotonic(), MINUTES * 60 / SPEED
         for at, name in plan(seconds):
             time.sleep(max(0.0, begin + at - time.monotonic()))
@@ -154,17 +149,17 @@ with Scratch() as scratch:
             counts[name] += 1
         time.sleep(max(0.0, begin + seconds - time.monotonic()))
         print(f"{MODE}, seed {SEED}: restarts {counts}")
-        while_growing = sum(len(data) for data in day_files(fetched).values())
+        while_growing = sum(len(data) for data in contents(fetched, "*.D.*").values())
         wait_for("the daemon answers", lambda: session.status().get("counters"))
         session.end()
-        written = day_files(archive)
+        written = contents(archive, "*.D.*")
         size = sum(map(len, written.values()))
-        wait_for("all written data are fetched", lambda: sum(map(len, day_files(fetched).values())) >= size, 180)
+        wait_for("all written data are fetched", lambda: sum(map(len, contents(fetched, "*.D.*").values())) >= size, 180)
         for file, what in dumps.items():
             wait_for(f"{what} has fetched as many bytes", lambda: file.stat().st_size >= size, 300)
         time.sleep(2.0)  # Time in which data might arrive twice.
         demand("all are still running", all(one.process.poll() is None for one in services.values()))
-        came = day_files(fetched)
+        came = contents(fetched, "*.D.*")
         print(f"{len(written)} day files, {size // 512} records; {while_growing // 512} were fetched while the files grew")
         demand("data were fetched while the archive grew", while_growing > 0)
         if "daemon" not in RESTARTED:

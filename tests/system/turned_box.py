@@ -3,10 +3,8 @@
 The emulated box is turned over between two runs of the daemon.
 """
 
-import signal
-
 from emulated_session import Session, wait_for
-from programs import Scratch, demand
+from programs import Scratch, demand, end_cleanly
 
 SPEED = 10
 UPRIGHT, TURNED = "2017-06-02T00:32:00Z", "2017-06-02T00:42:00Z"  # Set-ups of the scenario tumble, 8 min are left of each.
@@ -29,8 +27,7 @@ with Scratch() as scratch:
     wait_for("the fault", lambda: found(session))
     demand(f"it ends with its remedy: {found(session)}", found(session)[0].endswith(REMEDY))
     demand("the level is fault", session.status()["level"] == "fault")
-    session.daemon.send_signal(signal.SIGTERM)
-    demand("the daemon ends cleanly", session.daemon.wait(timeout=30) == 0)
+    end_cleanly("the daemon", session.daemon)
     session.daemon = session.start_daemon()
     sent = session.emulated()["frames_sent"]
     wait_for("40 s more", lambda: session.emulated()["frames_sent"] > sent + FRAMES)

@@ -16,16 +16,10 @@ import subprocess
 import time
 
 from emulated_session import wait_for
-from programs import BIN, IS_SANITIZED, ONE_SITE, TOP, Scratch, daemon_status, demand, run, short_day, unused_port
+from programs import BIN, IS_SANITIZED, TOP, Scratch, daemon_status, demand, one_site, run, short_day, unused_port
 
 SPEED = 60 if IS_SANITIZED else 120
 RECORD_S = 5
-SCENARIO = """base = "ideal"
-name = "short"
-[schedule]
-start_utc = "{}"
-duration_h = 24.0
-""" + ONE_SITE
 README_START = "2017-06-01T09:00:00Z"
 GUIDE_START, GUIDE_RECORDED = "2017-06-01T08:38:00Z", "2017-06-01T09:02:00Z"  # The guide changes a stay from 08:45 to 09:01.
 
@@ -81,7 +75,7 @@ class Reader:
         self.scratch, self.root, self.port = scratch, root, unused_port()
         self.own = scratch / f"reader-{self.port}"
         self.own.mkdir()
-        (self.own / "short.toml").write_text(SCENARIO.format(start))
+        (self.own / "short.toml").write_text(one_site("ideal", start, 24))
         now = datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%dT%H:%M:%S.%fZ")
         self.clock = f"scaled:{SPEED}@{start},{now}"
         self.environment = {**os.environ, "PATH": f"{BIN}:{os.environ['PATH']}", "TZ": "UTC",

@@ -6,7 +6,7 @@ The emulator has a profile file of its own: axes of half the scale, and a temper
 import time
 
 from emulated_session import Session, wait_for
-from programs import BIN, TOP, Scratch, demand, run
+from programs import TOP, Scratch, demand
 
 SPEED = 20
 FRAMES = 1500  # Half a minute of samples: kConfirm_s of daemon/believable, and the delay of the sample times.
@@ -38,7 +38,7 @@ for emulated, is_wrong in (("A351", False), ("other.toml", True)):
             status = session.status()
             demand(f"each with its remedy: {found()}", all(one[0].endswith(REMEDY) for one in found()))
             demand(f"the level is fault: {status['level']}", status["level"] == "fault")
-            screen = run(BIN / "a351ctl", "--url", f"http://127.0.0.1:{session.port}", "status", check=False)
+            screen = session.try_ctl("status")
             demand(f"a351ctl status ends with 2 and shows it: {screen.returncode}", screen.returncode == 2 and WORDS[0] in screen.stdout)
             wait_for("the log names both", lambda: all(words in (scratch / "a351d.log").read_text() for words in WORDS))
         else:

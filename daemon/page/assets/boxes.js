@@ -5,10 +5,10 @@ import { get, post } from "./api.js";
 import { Dialog } from "./dialog.js";
 import { by_id, make, set_text, show } from "./dom.js";
 import { number, visible } from "./format.js";
-import { sentence, tr } from "./language.js";
+import { tr } from "./language.js";
 import { recalled, remember } from "./memory.js";
 import { kStale_s, troubles_of } from "./signal.js";
-import { time_with_utc, with_local_times } from "./time.js";
+import { shown, time_with_utc } from "./time.js";
 
 const kEvery_ms = 1000;
 const kPatience_ms = 3000; // Longest wait for an answer.
@@ -70,7 +70,7 @@ class Box {
         const signal = this.is_fresh() ? this.status.signal : null;
         this.parts.word.dataset.word = signal?.word ?? "no_data";
         set("word", signal ? tr(signal.text) : this.status ? tr("NO FRESH DATA") : tr("NO DATA"));
-        set("sentence", signal ? visible(with_local_times(sentence(signal.parts, signal.sentence))) : "");
+        set("sentence", signal ? shown(signal.parts, signal.sentence) : "");
         const stay = this.status?.occupation;
         set("stay", stay ? tr("{}, stay {}, since {}", visible(stay.site), stay.number, time_with_utc(stay.start))
             : tr("no stay is running"));
@@ -82,7 +82,7 @@ class Box {
     }
 
     say(text, is_error) {
-        this.parts.answer.textContent = visible(text);
+        this.parts.answer.textContent = text;
         this.parts.answer.classList.toggle("error", is_error);
     }
 
@@ -92,10 +92,10 @@ class Box {
         try {
             const options = { signal: AbortSignal.timeout(kPatience_ms) };
             const { message, message_parts } = await post(`${this.origin}${path}`, body, options);
-            this.say(sentence(message_parts, message), false);
+            this.say(shown(message_parts, message), false);
             return true;
         } catch (error) {
-            this.say(error.message, true);
+            this.say(visible(error.message), true);
             return false;
         }
     }

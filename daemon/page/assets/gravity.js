@@ -4,7 +4,7 @@ import { get } from "./api.js";
 import { set_items, set_text, show } from "./dom.js";
 import { visible } from "./format.js";
 import { sentence, tr } from "./language.js";
-import { time_with_utc, with_local_times } from "./time.js";
+import { shown, time_with_utc } from "./time.js";
 
 const kRefresh_ms = 5000;
 
@@ -12,7 +12,7 @@ let survey = { stays: [], findings: [] };
 let next_ms = 0;
 
 function text_of(said) {
-    return visible(with_local_times(sentence(said.text_parts, said.text)));
+    return shown(said.text_parts, said.text);
 }
 
 /** Returns why there are no new figures; "" if there are. */

@@ -31,11 +31,6 @@ export function tr(text, ...words) {
     return filled(catalogue[text] ?? text, words);
 }
 
-/** Marks a text for the catalogue that is translated elsewhere. */
-export function marked(text) {
-    return text;
-}
-
 /** Returns a sentence of the daemon.
     @param parts  its parts: a text, or an array of a text of the catalogue and its arguments, which are such lists of parts.
     @param english  the whole sentence, used if there are no parts; null if it is not known. */
@@ -43,11 +38,6 @@ export function sentence(parts, english) {
     if ((language === "en" && english !== null) || !Array.isArray(parts)) return english;
     return parts.map((part) => (Array.isArray(part) ? tr(part[0], ...part.slice(1).map((words) => sentence(words, ""))) : part))
         .join("");
-}
-
-/** Returns sentences of the daemon. */
-export function sentences(parts, english) {
-    return english.map((text, i) => sentence(parts?.[i], text));
 }
 
 /** Replaces a text of the page; <b> is the only markup in texts. */

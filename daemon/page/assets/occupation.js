@@ -5,11 +5,11 @@ import { DayList, may_resume } from "./day_list.js";
 import { by_id, make, set_items, set_text, set_value, show } from "./dom.js";
 import { show_differences, show_map, show_trace } from "./figures.js";
 import { number, visible } from "./format.js";
-import { sentence, sentences, tr } from "./language.js";
+import { sentence, tr } from "./language.js";
 import { recalled, remember } from "./memory.js";
 import { NewSite } from "./new_site.js";
 import { StayDialogs } from "./stay_dialogs.js";
-import { nearest_instant, time_with_utc, with_local_times } from "./time.js";
+import { all_shown, nearest_instant, shown, time_with_utc } from "./time.js";
 
 const kDay_ms = 24 * 3600 * 1000;
 const kTestSetUps = "20"; // Twenty set-ups give the scatter of placement within about 40 % (95 %).
@@ -91,7 +91,7 @@ export class OccupationPanel {
     /** Returns what speaks against stopping now; "" if nothing. */
     doubt_of_stop() {
         const { word, text, parts, sentence: english } = this.signal;
-        return word === "go" ? "" : `${tr(text)}: ${visible(with_local_times(sentence(parts, english)))}`;
+        return word === "go" ? "" : `${tr(text)}: ${shown(parts, english)}`;
     }
 
     /** Makes the lists be read again: the daemon may have been restarted with other sites. */
@@ -99,18 +99,13 @@ export class OccupationPanel {
         this.changes = null;
     }
 
-    async answer_to(path, body) {
-        const { message, message_parts } = await post(path, body);
-        return with_local_times(sentence(message_parts, message));
-    }
-
     /** Sends an order to the daemon and shows its answer.  @throws Error with a line for the operator. */
     async send(path, body) {
-        by_id("answer").classList.remove("error");
-        set_text("answer", "…");
+        this.say("…", false);
         this.answered_ms = performance.now();
         try {
-            set_text("answer", visible(await this.answer_to(path, body)));
+            const { message, message_parts } = await post(path, body);
+            this.say(shown(message_parts, message), false);
             this.forget_lists();
         } catch (error) {
             this.refuse(visible(error.message));
@@ -142,17 +137,18 @@ export class OccupationPanel {
         const said = by_id("answer").textContent;
         // The stay had ended, so it must not run on, whatever became of the set-up.
         const is_stopped = await this.change("/api/occupation/stop", { ...stay, at: end });
-        if (is_stopped && !is_begun) {
-            by_id("answer").classList.add("error");
-            set_text("answer", said);
-        }
+        if (is_stopped && !is_begun) this.say(said, true);
         return is_begun && is_stopped;
+    }
+
+    say(text, is_error) {
+        by_id("answer").classList.toggle("error", is_error);
+        set_text("answer", text);
     }
 
     /** Shows why an order was not carried out. */
     refuse(text) {
-        by_id("answer").classList.add("error");
-        set_text("answer", tr("Not done: {}", text));
+        this.say(tr("Not done: {}", text), true);
     }
 
     chosen(kind) {
@@ -300,9 +296,9 @@ export class OccupationPanel {
         const is_test = one.has_own_plan && one.planned_set_ups >= kFewestTested; // Else many short set-ups are configured.
         show("run-test", is_test);
         if (is_test) set_text("run-test", test_text(one, this.signal.word === "go"));
-        const warnings = sentences(one.warning_parts, one.warnings ?? []);
+        const warnings = all_shown(one.warning_parts, one.warnings ?? []);
         show("run-warnings", warnings.length > 0);
-        set_items("run-warnings", warnings.map((text) => [`⚠ ${visible(with_local_times(text))}`, ""]));
+        set_items("run-warnings", warnings.map((text) => [`⚠ ${text}`, ""]));
     }
 
     /** Returns the stays of the last 24 h with the running one, as { from_ms, to_ms, site }. */

@@ -2,8 +2,8 @@
 
 import { by_id, set_items, set_text, show } from "./dom.js";
 import { duration, number, signed, significant, visible } from "./format.js";
-import { sentence, sentences, tr } from "./language.js";
-import { time_of_day, time_with_utc, with_local_times } from "./time.js";
+import { tr } from "./language.js";
+import { all_shown, shown, time_of_day, time_with_utc } from "./time.js";
 
 /** Time without data after which the page says so, real time; kStaleAfter of the daemon. */
 export const kStale_s = 3;
@@ -20,7 +20,7 @@ export function show_signal(signal, stay, stale_s) {
     by_id("signal-sign").setAttribute("href", `#sign-${code}`);
     set_text("signal-word", word);
     set_text("signal-sentence", is_stale ? tr("Last signal: {}, {} ago.", tr(signal.text), duration(stale_s))
-        : visible(with_local_times(sentence(signal.parts, signal.sentence))));
+        : shown(signal.parts, signal.sentence));
     const moved = time_of_day(stay?.moved?.utc);
     const labels = { stop_at: tr("Stop at {}", moved), setup_at: tr("Next set-up at {}", moved), begin_at: tr("Move the start to {}", moved) };
     for (const button of by_id("signal-buttons").children) {
@@ -37,8 +37,7 @@ export function show_signal(signal, stay, stale_s) {
 
 /** Returns the reasons of the status in words, one per line, without the one that is the signal's sentence. */
 export function troubles_of({ reasons, reason_parts, signal }) {
-    return sentences(reason_parts, reasons).filter((_, i) => !signal.sentence.startsWith(reasons[i])).map((text) => visible(with_local_times(text)))
-        .join("\n");
+    return all_shown(reason_parts, reasons).filter((_, i) => !signal.sentence.startsWith(reasons[i])).join("\n");
 }
 
 /** Shows the tilt relative to the first set-up of the day.
@@ -50,7 +49,7 @@ export function show_tilt(tilt) {
     const is_known = tilt.x_arcmin !== null;
     spot.setAttribute("visibility", is_known ? "visible" : "hidden");
     set_text("level-reference", tr("compared with {}, {}", visible(tilt.reference.site), time_with_utc(tilt.reference.utc)));
-    set_items("level-advice", sentences(tilt.advice_parts, tilt.advice).map((text) => [visible(text).replaceAll("'", "′"), ""]));
+    set_items("level-advice", all_shown(tilt.advice_parts, tilt.advice).map((text) => [text.replaceAll("'", "′"), ""]));
     if (!is_known) {
         set_text("level-numbers", tr("tilt not known yet"));
         set_text("level-word", "");
@@ -85,5 +84,5 @@ export function show_details({ details, occupation }) {
             number(whole.set_up_sd_mgal), number(whole.set_up_error_mgal))];
     set_text("details-reading", texts.filter(Boolean).join(" "));
     set_items("details-checks", details.checks.length ? details.checks.map((check) => [check_text(check), ""])
-        : sentences(details.reason_parts, details.reasons).map((reason) => [`✗ ${visible(reason)}`, ""]));
+        : all_shown(details.reason_parts, details.reasons).map((reason) => [`✗ ${reason}`, ""]));
 }

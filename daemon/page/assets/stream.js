@@ -8,7 +8,7 @@ const kLongestWait_ms = 8000;
 
 /** Decodes a message of samples; null for a kind that this page does not know.
     Layout: version, kind, channel mask, count, first index, first time, interval, counts. */
-export function decode(buffer) {
+function decode(buffer) {
     const view = new DataView(buffer);
     if (buffer.byteLength < kHeaderBytes || view.getUint8(0) !== 1 || view.getUint8(1) !== 1) return null;
     const mask = view.getUint16(2, true);

@@ -1,6 +1,7 @@
 // Times of day in the operator's zone, which is that of the browser, with UTC beside them.
 
-import { tr } from "./language.js";
+import { visible } from "./format.js";
+import { sentence, tr } from "./language.js";
 
 function two(value) {
     return String(value).padStart(2, "0");
@@ -62,7 +63,13 @@ export function nearest_instant(text, near_ms) {
         .reduce((best, one) => (Math.abs(one - near_ms) < Math.abs(best - near_ms) ? one : best));
 }
 
-/** Returns a text whose instants in RFC 3339 are in the operator's zone. */
-export function with_local_times(text) {
-    return text.replace(/\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d(\.\d+)?Z/g, (instant) => time_with_utc(instant));
+/** Returns a sentence of the daemon as it is shown: in the page's language, its instants in the operator's zone. */
+export function shown(parts, english) {
+    return visible(sentence(parts, english)
+        .replace(/\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d(\.\d+)?Z/g, (instant) => time_with_utc(instant)));
+}
+
+/** Returns sentences of the daemon likewise. */
+export function all_shown(parts, english) {
+    return english.map((text, i) => shown(parts?.[i], text));
 }

@@ -20,7 +20,6 @@ public:
     DegC controller_reading() const noexcept override { return reading; }
     double drive() const noexcept override { return runs && !is_broken ? power : 0.0; }
     DegC set_point() const noexcept override { return target; }
-    bool is_running() const noexcept override { return runs; }
     bool is_sensor_broken() const noexcept override { return is_broken; }
     plant::ControllerKind controller() const noexcept override { return kind; }
     plant::ControllerTuning tuning() const noexcept override { return pi; }
