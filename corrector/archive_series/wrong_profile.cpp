@@ -18,6 +18,9 @@ namespace a351::corrector::archive_series {
 namespace {
 
 constexpr std::chrono::seconds kPiece(10);
+// Largest relative error of the rate while a minute is not complete: a host may pause for a second.
+constexpr std::size_t kPiecesOfMinute = 6;
+constexpr double kMostRateErrorOfFew = 0.1;
 // Least share of the samples that follow the one before.  With a wrong rate none does; a line that
 // loses samples at random has as many as it does not lose.
 constexpr double kLeastFollowing = 0.25;
@@ -62,7 +65,7 @@ public:
     }
 
     std::vector<double> norms_g, temperatures_degc;
-    std::vector<double> rates;  ///< Rate of the indices, divided by the nominal one.
+    std::vector<double> rates;             ///< Rate of the indices, divided by the nominal one.
     std::vector<double> shares_following;  ///< Samples whose index is the next one, divided by all.
 
 private:
@@ -113,7 +116,8 @@ text::Message refuse_wrong_profile(const std::filesystem::path& root,
     }
     if (pieces.rates.empty()) return other_product;
     const double rate = signal::median(pieces.rates);
-    if (std::abs(rate - 1.0) > kMostRateError)
+    const bool is_short = pieces.rates.size() < kPiecesOfMinute;
+    if (std::abs(rate - 1.0) > (is_short ? kMostRateErrorOfFew : kMostRateError))
         refuse(profile, fmt::format("{:.3g} times the samples of the output rate arrived", rate));
     const double following = signal::median(pieces.shares_following);
     if (following < kLeastFollowing)

@@ -9,19 +9,21 @@
 using namespace a351;
 using namespace a351::corrector::archive_series;
 using namespace a351::journal;
+using namespace std::chrono_literals;
 
 namespace {
 
 /// Writes the journal of a box at 1 g and 42.5 degC for two minutes.  Before sample `still` its axes
-/// are dead, and the line loses the first `lost` of each 50 samples.
-void record(const archive::DataRoot& root, std::int64_t still = 0, std::int64_t lost = 0) {
+/// are dead, and the line loses the first `lost` of each 50 samples.  The host pauses at the begin.
+void record(const archive::DataRoot& root, std::int64_t still = 0, std::int64_t lost = 0,
+            std::int64_t samples = 6000, Nanoseconds pause = {}) {
     JournalStream stream;
-    for (std::int64_t k = 0; k < 6000; ++k) {
+    for (std::int64_t k = 0; k < samples; ++k) {
         if (k % 50 < lost) continue;
         wire::BurstValues values = values_of(k);
         values.temperature = -1981;
         if (k < still) values.axes = {};
-        stream.bytes(frame_of(values), due(k));
+        stream.bytes(frame_of(values), std::max(due(k), due(0) + pause));
         if (k % 50 == 49) stream.second(due(k));
     }
     root.write_journal(stream.chunks);
@@ -66,6 +68,9 @@ TEST_CASE(
     record(carried, 2400);
     CHECK(refuse_wrong_profile(root.path(), *wire::find_profile("A352AD10")).empty());
     CHECK(refuse_wrong_profile(carried.path(), *wire::find_profile("A352AD10")).empty());
+    const archive::DataRoot brief;
+    record(brief, 0, 0, 600, 400ms);  // 1.04 times the samples in the only ten seconds
+    CHECK(refuse_wrong_profile(brief.path(), *wire::find_profile("A352AD10")).empty());
     record(lossy, 0, 30);
     CHECK(refuse_wrong_profile(lossy.path(), *wire::find_profile("A352AD10")).empty());
     CHECK_THAT(refuse_wrong_profile(root.path(), *wire::find_profile("A370AD10")),

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "corrector/judgement/reading_name.hpp"
+#include "corrector/judgement/unlike_neighbours.hpp"
 
 using namespace a351;
 using namespace a351::corrector::model;
@@ -259,6 +260,8 @@ TEST_CASE("a named mistake makes no other reading doubtful") {
     CHECK(first_grade(result) == Grade::repeat);
     result.findings.push_back({.kind = FindingKind::no_stop, .code = "remark"});
     CHECK(first_grade(result) == Grade::repeat);
+    result.findings.push_back({.kind = FindingKind::other_name, .code = kUnlikeNeighboursCode, .site = "C"});
+    CHECK(first_grade(result) == Grade::repeat);  // It was found without the other readings.
     const FindingKind kind = GENERATE(FindingKind::reference, FindingKind::other_name,
                                       FindingKind::step, FindingKind::bad_reading);
     result.findings.push_back({.kind = kind, .code = "mistake", .site = "C", .occupation = 1});

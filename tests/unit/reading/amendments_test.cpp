@@ -89,6 +89,7 @@ TEST_CASE("set-ups, steps and references are amended") {
     const test::TemporaryDirectory folder;
     auto windows = list();
     auto sites = kAmendedSites;
+    sites[1].u_gravity = MilliGal(0.01);
     const Amendments amendments = amend(
         windows,
         folder.write(
@@ -110,6 +111,7 @@ TEST_CASE("set-ups, steps and references are amended") {
     CHECK(amendments.steps == std::vector{at("00:30:00"), at("02:30:00")});
     CHECK(amendments.refused_references == std::vector<std::string>{"A"});
     CHECK(sites[1].gravity == MilliGal(979950.5));
+    CHECK_FALSE(sites[1].u_gravity);  // It was that of the former value.
     CHECK(amendments_text(amendments.list) ==
           "amended: set_up A (1) at 2020-01-01T00:10:00Z: r\n"
           "amended: set_up A (1) at 2020-01-01T00:09:00Z: r\n"

@@ -114,6 +114,17 @@ TEST_CASE("a reading is not reduced for the pressure if the admittance is fitted
     CHECK(rows[0].excess_pressure_hpa.value() == Approx(10.0));
 }
 
+TEST_CASE("a file of the pressure serves readings without one") {
+    const test::TemporaryDirectory folder;
+    std::vector<reading::SurveyRow> rows{row("base", "01:00:00"), row("base", "01:30:00")};
+    rows[0].pressure_hpa = 990.0;
+    const auto file = folder.write(
+        "p.csv", "time,pressure_hpa\n2026-03-01T00:00:00Z,1000\n2026-03-01T02:00:00Z,1000\n");
+    static_cast<void>(reduce_rows(rows, kSites, {}, {.height = {}, .pressure = file}));
+    CHECK(rows[0].pressure_hpa == 990.0);
+    CHECK(rows[1].pressure_hpa == 1000.0);
+}
+
 TEST_CASE("a file of the pressure of another day is refused") {
     const test::TemporaryDirectory folder;
     std::vector<reading::SurveyRow> rows{row("base", "01:00:00")};
