@@ -92,12 +92,7 @@ StayAverage average_of(const Stay& stay, const AverageOptions& options) {
         MilliGal(options.is_mean ? signal::mean_of(values_mgal) : centred_median(values_mgal));
     if (tides_mgal.size() == average.count)
         average.tide_correction = MilliGal(signal::mean_of(tides_mgal));
-    if (average.count > 1) {
-        const double centre = signal::mean_of(values_mgal);
-        double squares = 0.0;
-        for (const double value : values_mgal) squares += (value - centre) * (value - centre);
-        average.sd = MilliGal(std::sqrt(squares / static_cast<double>(average.count - 1)));
-    }
+    if (average.count > 1) average.sd = MilliGal(signal::sample_sd_of(values_mgal));
     return average;
 }
 

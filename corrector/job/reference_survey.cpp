@@ -57,6 +57,7 @@ ReferenceNetwork hold_reference_values(const SurveyFile& survey, reading::Occupa
         tide::set_tide_system(tide, system, origin + ": tide_system of the survey");
     }
     tide::apply_tide(rows, read.sites, tide);
+    tide.factors = {};  // The survey's own rows have the warning about them.
     for (const text::Message& warning : tide::tide_warnings(rows, read.sites, tide))
         read.warnings.push_back(origin + ": " + warning);
     reduction::ReductionChoice reduction = survey.reduction;

@@ -233,38 +233,58 @@ Search search(const model::SurveyCorrection& result, const SearchedSurvey& surve
     return found;
 }
 
-/// Says that a drift of a higher degree in each loop leaves at least three mistakes fewer, if so.
-/// Its terms are more than those of the mistakes, so it proves nothing: s0 of both fits is given.
+/// Returns the network of these readings; nullopt if they do not determine it.
+std::optional<model::SurveyCorrection> network_of(const std::vector<SurveyRow>& rows,
+                                                  model::SurveyOptions options) {
+    options.model = model::kNetwork;
+    try {
+        auto fit = model::correct_survey(rows, options, nullptr);
+        if (fit.as<model::NetworkPart>() != nullptr) return fit;
+    } catch (const reading::Refused&) {  // too few readings in a loop for this drift
+    }
+    return std::nullopt;
+}
+
+/// Returns how many mistakes the search with the model has found.
+std::ptrdiff_t count_mistakes(const std::vector<Finding>& findings) {
+    return std::ranges::count_if(findings, [](const Finding& finding) {
+        return reading::is_mistake(finding) && finding.code != kUnlikeNeighboursCode;
+    });
+}
+
+/// Says that with a drift of a higher degree in each loop at least three mistakes fewer are found, if
+/// so.  Either may be the cause, so s0 of both fits is given.
 /// @param right  the survey with the mistakes put right.
 /// @param known  findings that were known before the search.
 std::optional<Finding> curved_drift(const model::SurveyCorrection& result,
                                     const SearchedSurvey& survey, const model::AmendedSurvey& right,
                                     const std::vector<Finding>& known) {
     constexpr std::ptrdiff_t kFewestLess = 3;
-    const auto mistakes = std::ranges::count_if(result.findings, reading::is_mistake);
+    const auto mistakes = count_mistakes(result.findings);
     if (result.as<model::NetworkPart>() == nullptr || mistakes < kFewestLess) return std::nullopt;
-    const auto corrected = [&](const std::vector<SurveyRow>& rows, model::SurveyOptions options) {
-        options.model = result.model;
-        return model::correct_survey(rows, options, survey.day);
+    const auto s0_of = [](const std::optional<model::SurveyCorrection>& fit) {
+        return text::fixed_or(fit ? fit->as<model::NetworkPart>()->s0() : std::nullopt, 2, "-");
     };
-    const auto s0_of = [](const model::SurveyCorrection& fit) {
-        return text::fixed_or(fit.as<model::NetworkPart>()->s0(), 2, "-");
-    };
+    const std::vector<SurveyRow> rows =
+        model::without_known_tilt(survey.rows, result.options.calibration);
     model::SurveyOptions options = result.options;
     for (int& degree = ++options.network.drift_degree; degree <= model::kGreatestDriftDegree;
          ++degree) {
-        model::SurveyCorrection curved = corrected(survey.rows, options);
-        curved.findings = known;
-        const auto left = std::ranges::count_if(find_mistakes(curved, survey), reading::is_mistake);
-        if (mistakes - left < kFewestLess) continue;
+        std::optional<model::SurveyCorrection> curved = network_of(rows, options);
+        if (!curved) continue;
+        curved->findings = known;
+        const auto found =
+            count_mistakes(find_mistakes(*curved, {survey.rows, survey.sites, nullptr}));
+        if (mistakes - found < kFewestLess) continue;
         return Finding{
             .kind = FindingKind::misfit,
             .code = "misfit_drift",
             .text = text::message(
-                "a drift of degree {} in each loop leaves {} of these {} mistakes, and s0 is {}; "
-                "with the mistakes put right it is {}: the drift may be curved",
-                degree, left, mistakes, s0_of(curved),
-                s0_of(corrected(right.rows, right.options)))};
+                "with a drift of degree {} in each loop the number of mistakes is {} instead of "
+                "{}; "
+                "s0 is then {}, and {} with the mistakes put right: the drift may be curved",
+                degree, found, mistakes, s0_of(curved),
+                s0_of(network_of(right.rows, right.options)))};
     }
     return std::nullopt;
 }
@@ -310,8 +330,10 @@ model::SurveyCorrection correct_and_search(const SearchedSurvey& survey,
         result.findings = known;
         return result;
     };
+    bool has_far_terms = false;
     const auto search_and_hold = [&](model::SurveyCorrection& result) {
         std::vector<model::Coefficient> far = far_terms(result);
+        has_far_terms = !far.empty();
         Search found = search(result, survey, options.priors, far);
         if (far.empty()) return found;
         model::SurveyCorrection fit;
@@ -354,7 +376,7 @@ model::SurveyCorrection correct_and_search(const SearchedSurvey& survey,
         }
     }
     result.findings = std::move(found.findings);
-    if (found.amended)
+    if (found.amended && !has_far_terms)
         if (auto finding = curved_drift(result, survey, *found.amended, known)) {
             result.findings.push_back(std::move(*finding));
             std::ranges::stable_sort(result.findings, {}, rank_of);

@@ -35,7 +35,7 @@ namespace a351::corrector::reading {
 /// - short_stay: the set-up is much shorter than the others of the day.
 /// - base_not_revisited: the base has one stay only.
 /// - doubtful_site: the list of sites has one that does not fit the others.
-/// - clock: times are uncertain, or the host's clock was set back.
+/// - clock: times are uncertain, the host's clock was set back, or most set-ups have no samples.
 /// - other_unit: other sensors recorded in the time of the survey too.
 enum class FindingKind {
     moved_box,

@@ -300,9 +300,13 @@ OccupationRows average_occupations(const SurveySource& source, const SurveyStays
     const std::vector<OccupationWindow> averaged =
         add_rows(result, set_ups, windows, stays, source.is_tumbled);
     if (result.rows.empty()) refuse_all(source, set_ups, result.warnings, absent);
-    const auto without_samples = std::ranges::count(set_ups, kNoSamples, &AveragedSetUp::trouble);
-    auto unrecorded =
-        mostly_without_samples(static_cast<std::size_t>(without_samples), set_ups.size());
+    std::size_t wanted = 0, without_samples = 0;
+    for (const AveragedSetUp& set_up : set_ups) {
+        if (set_up.window.is_excluded) continue;
+        ++wanted;
+        if (set_up.trouble == kNoSamples) ++without_samples;
+    }
+    auto unrecorded = mostly_without_samples(without_samples, wanted);
     if (unrecorded && !source.is_so_far) result.findings.push_back(std::move(*unrecorded));
     for (Finding& remark : stay_remarks(averaged, samples[kVertical]))
         result.findings.push_back(std::move(remark));

@@ -136,12 +136,11 @@ std::vector<Finding> stay_remarks(const std::vector<OccupationWindow>& windows,
 
 std::optional<Finding> mostly_without_samples(std::size_t without_samples, std::size_t set_ups) {
     if (2 * without_samples <= set_ups) return std::nullopt;
-    return Finding{.kind = FindingKind::unusable_day,
+    return Finding{.kind = FindingKind::clock,
                    .code = "without_samples",
                    .text = text::message("{} of {} set-ups have no samples: check when the sensor "
                                          "recorded, and date, hour and zone of the stays",
-                                         without_samples, set_ups),
-                   .is_headline = true};
+                                         without_samples, set_ups)};
 }
 
 std::optional<Finding> other_face(const OccupationWindow& window, int face) {

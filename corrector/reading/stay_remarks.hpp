@@ -23,8 +23,8 @@ namespace a351::corrector::reading {
 [[nodiscard]] std::vector<Finding> stay_remarks(const std::vector<OccupationWindow>& windows,
                                                 const archive::ChannelData& axis);
 
-/// Returns the finding unusable_day if more than half of the set-ups have no samples: either the
-/// sensor was not recorded, or the times of the list are wrong, as those of another zone are.
+/// Returns the remark clock if more than half of the set-ups have no samples: either the sensor was
+/// not recorded, or the times of the list are wrong, as those of another zone are.
 [[nodiscard]] std::optional<Finding> mostly_without_samples(std::size_t without_samples,
                                                             std::size_t set_ups);
 

@@ -1,7 +1,5 @@
 #include "corrector/result/answer.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>

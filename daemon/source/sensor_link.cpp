@@ -286,7 +286,7 @@ void SensorLink::begin_session() {
     const bool is_new = !known_ || known_->header.session != begun_->header.session;
     // The counter of a device that was just configured starts at 0.
     if (is_new) known_ = journal::StreamEnd{begun_->header, 0, begun_->header.clock.raw};
-    queue([&] { return queue_.push_session(begun_->header, begun_->header.clock.raw); });
+    push_or_wait([&] { return queue_.push_session(begun_->header, begun_->header.clock.raw); });
     for (const journal::TxChunk& chunk : begun_->sent)
         push(ReadQueue::Kind::tx, chunk.time, chunk.bytes);
     begun_.reset();

@@ -99,9 +99,9 @@ private:
     void wait_for_bytes(Nanoseconds real);
     void expect_stream(std::vector<Read> unread);
     void wait_for_journal();
-    /// Waits for the journal until `push` succeeds or the link is stopped.
+    /// Calls `push` until it succeeds or the link is stopped; waits for the journal between.
     template <class Push>
-    void queue(Push push) {
+    void push_or_wait(Push push) {
         while (!push() && !stop_) wait_for_journal();
         waits_for_journal_ = false;
     }

@@ -135,7 +135,7 @@ void SensorLink::wait_for_bytes(Nanoseconds real) {
 // are lost; this shows as a gap and the waits are counted.  On a pseudo-terminal the writer
 // waits too.
 void SensorLink::push(ReadQueue::Kind kind, RawTime time, std::span<const std::byte> bytes) {
-    queue([&] { return queue_.push(kind, time, bytes); });
+    push_or_wait([&] { return queue_.push(kind, time, bytes); });
 }
 
 /// Queues a clock reading after a sleep of the host, before the first bytes that follow it.  It is
@@ -143,7 +143,7 @@ void SensorLink::push(ReadQueue::Kind kind, RawTime time, std::span<const std::b
 /// @return  the arrival time of these bytes.
 RawTime SensorLink::push_woken() {
     const timing::ClockReading reading = clock_.read();
-    queue([&] { return queue_.push_woken(reading); });
+    push_or_wait([&] { return queue_.push_woken(reading); });
     return reading.raw;
 }
 

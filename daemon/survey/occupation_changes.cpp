@@ -32,7 +32,7 @@ Occupations::Found Occupations::found(const Named& stay) {
     };
     look_at(list(), Found::State::finished);
     look_at(discarded(), Found::State::discarded);
-    if (found.site.empty())
+    if (found.text.empty())
         found.trouble = text::message("no stay has the key {}; see the list", stay.key);
     else if (!stay.site.empty() && stay.site != found.site)
         found.trouble = text::message("the stay {} is at {}, not at {}; nothing was changed",

@@ -179,8 +179,8 @@ private:
     struct Found {
         enum class State { running, finished, discarded };
         State state = State::finished;
-        std::string site;            ///< Empty: there is none.
-        text::Message text;          ///< Site, number and times.
+        std::string site;
+        text::Message text;          ///< Site, number and times; empty: there is no such stay.
         UtcTime start, end;          ///< A stay that still runs ends at the last sample.
         text::Message trouble = {};  ///< Why it is not the stay that is named; empty if it is.
     };

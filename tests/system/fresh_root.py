@@ -13,9 +13,8 @@ import time
 
 from programs import demand, run
 
-# Nothing that points to this tree; settings of a proxy stay.
-ENVIRONMENT = ["/usr/bin/env", "-u", "TMPDIR",
-               *(f"--unset={name}" for name in os.environ if name.startswith("A351_")),
+# Without what points to this tree.
+ENVIRONMENT = ["/usr/bin/env", "-u", "TMPDIR", "-u", "A351_BIN", "-u", "A351_TOOLS",
                "PATH=/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin", "DEBIAN_FRONTEND=noninteractive", "HOME=/tmp"]
 MOUNTS = pathlib.Path("/proc/self/mounts")
 

@@ -55,7 +55,7 @@ with Scratch() as scratch:
     stays = logged.count("keep_off")
     # A stay lasts 0.6 s of the host: a loaded host can press Start when its plan is already complete.
     demand(f"the log has {len(logged)} words, two for each of {stays} stays, however fast time runs",
-           expected - 1 <= stays <= expected and 2 * stays <= len(logged) <= 2 * stays + 2 and min(lengths_s) >= 5)
+           expected - 1 <= stays <= expected + 1 and 2 * stays <= len(logged) <= 2 * stays + 2 and min(lengths_s) >= 5)
 
     channels = compare_truth(out / "data" / "archive", out / "truth.bin")
     for name, counted in channels.items():

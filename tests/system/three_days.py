@@ -75,7 +75,7 @@ with Scratch() as scratch:
             counted = compare_truth(root / "archive", live / "truth.bin").values()
             worst_ms = max(1e3 * one["largest_time_error_s"] for one in counted)
             demand(f"{root.name}: largest time error of a sample {worst_ms:.3f} ms, limit {limit_ms}", worst_ms < limit_ms)
-            demand(f"{root.name}: no sample is missing", all(one["missing"] == 0 for one in counted))
+            demand(f"{root.name}: no sample is missing, and no record boundary steps", all(one["missing"] == one["steps"] == 0 for one in counted))
         sizes[age_s] = sum(file.stat().st_size for file in (live / "archive").rglob("*.D.*"))
     print(f"archive of three hours: {sizes[60] / 1e6:.1f} MB, with records of 1 s {sizes[1] / 1e6:.1f} MB, "
           f"{sizes[1] / sizes[60]:.1f} times as large")

@@ -65,7 +65,7 @@ export function nearest_instant(text, near_ms) {
 
 /** Returns a sentence of the daemon as it is shown: in the page's language, its instants in the operator's zone. */
 export function shown(parts, english) {
-    return visible(sentence(parts, english)
+    return visible((sentence(parts, english) ?? "")
         .replace(/\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d(\.\d+)?Z/g, (instant) => time_with_utc(instant)));
 }
 

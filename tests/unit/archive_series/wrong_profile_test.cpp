@@ -69,7 +69,7 @@ TEST_CASE(
     CHECK(refuse_wrong_profile(root.path(), *wire::find_profile("A352AD10")).empty());
     CHECK(refuse_wrong_profile(carried.path(), *wire::find_profile("A352AD10")).empty());
     const archive::DataRoot brief;
-    record(brief, 0, 0, 600, 400ms);  // 1.04 times the samples in the only ten seconds
+    record(brief, 0, 0, 600, 1400ms);  // 1.04 times the samples in the only ten seconds
     CHECK(refuse_wrong_profile(brief.path(), *wire::find_profile("A352AD10")).empty());
     record(lossy, 0, 30);
     CHECK(refuse_wrong_profile(lossy.path(), *wire::find_profile("A352AD10")).empty());

@@ -272,9 +272,9 @@ TEST_CASE("a stay is resumed as if it had not been stopped") {
     events.push_back(stop("09:20"));
     CHECK(shown(events) == Lines{"A#1 09:00-09:05 09:05-09:20"});
     // A start that was moved stays so.
-    CHECK(shown({start("09:00", "A"),
-                 event_of("retime", "09:08", {{"key", "20260301T090000Z"}, {"from", "2026-03-01T09:03:00Z"}}),
-                 stop("09:10"), event_of("resume", "09:12", {{"key", "20260301T090000Z"}}), stop("09:20")}) ==
+    CHECK(shown({start("09:00", "A"), stop("09:10"),
+                 event_of("retime", "09:11", {{"key", "20260301T090000Z"}, {"from", "2026-03-01T09:03:00Z"}}),
+                 event_of("resume", "09:12", {{"key", "20260301T090000Z"}}), stop("09:20")}) ==
           Lines{"A#1 09:03-09:20"});
     // A discarded running stay has ended; it can be restored and resumed.
     events.insert(events.end(), {start("10:00", "B"), event_of("discard", "10:05"),

@@ -45,7 +45,7 @@ TEST_CASE("a list of which most set-ups have no samples is named: its hours are 
     CHECK_FALSE(mostly_without_samples(9, 18));
     const auto finding = mostly_without_samples(10, 19);
     REQUIRE(finding);
-    CHECK(finding->is_headline);
+    CHECK(is_remark(*finding));
     CHECK(finding->text ==
           "10 of 19 set-ups have no samples: check when the sensor recorded, and date, hour and "
           "zone of the stays");
