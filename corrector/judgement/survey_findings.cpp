@@ -281,8 +281,7 @@ std::optional<Finding> curved_drift(const model::SurveyCorrection& result,
             .code = "misfit_drift",
             .text = text::message(
                 "with a drift of degree {} in each loop the number of mistakes is {} instead of "
-                "{}; "
-                "s0 is then {}, and {} with the mistakes put right: the drift may be curved",
+                "{}; s0 is then {}, and {} with the mistakes put right: the drift may be curved",
                 degree, found, mistakes, s0_of(curved),
                 s0_of(network_of(right.rows, right.options)))};
     }

@@ -85,7 +85,8 @@ def show_zone(stub, browser):
     browser.click(f"#day-rows [data-key='{running['key']}']")
     for text, instant in (("23:50:00", "2026-03-01T14:50:00.000Z"), ("0:20", "2026-03-01T15:20:00.000Z"), ("15:40Z", "2026-03-01T15:40:00.000Z")):
         browser.click("#day-times")
-        demand("the dialog has the local time", browser.run("return document.getElementById('times-from').value") == "00:30:00")
+        browser.wait_for("the dialog has the local time",
+                         lambda: browser.run("return document.getElementById('times-from').value") == "00:30:00")
         browser.run("document.getElementById('times-from').value = arguments[0]", text)
         browser.click("#times-form [type=submit]")
         browser.wait_for(f"{text} is sent as {instant}", lambda: stub.posts and stub.posts[-1][1].get("from") == instant)

@@ -1,5 +1,6 @@
 """Compares a simulated survey day with the truth, after emulator, pseudo-terminal, daemon, archive and corrector."""
 
+import itertools
 import re
 
 from programs import IS_SANITIZED, TOP, Scratch, compare_truth, demand, events_of, instant, read_json, rows, run
@@ -26,10 +27,10 @@ def words_at_stops(written):
 
 
 def logged_words(root):
-    """Returns the words of the signal in the event log, and the time from each to the next."""
+    """Returns the words of the signal in the event log without LOOK, and the time from each word to the next."""
     events = sorted((instant(event["utc"]), event["word"]) for event in events_of(root) if event["type"] == "signal")
     lengths_s = [(after - before).total_seconds() for (before, _), (after, _) in zip(events, events[1:])]
-    return [word for _, word in events], lengths_s
+    return [word for word, _ in itertools.groupby(word for _, word in events if word != "look")], lengths_s
 
 
 with Scratch() as scratch:
