@@ -141,6 +141,7 @@ export class OccupationPanel {
         return is_begun && is_stopped;
     }
 
+    /** Shows an answer. */
     say(text, is_error) {
         by_id("answer").classList.toggle("error", is_error);
         set_text("answer", text);

@@ -14,7 +14,8 @@ using namespace std::chrono_literals;
 namespace {
 
 /// Writes the journal of a box at 1 g and 42.5 degC for two minutes.  Before sample `still` its axes
-/// are dead, and the line loses the first `lost` of each 50 samples.  The host pauses at the begin.
+/// are dead, and the line loses the first `lost` of each 50 samples.  The host pauses for `pause` at
+/// the beginning.
 void record(const archive::DataRoot& root, std::int64_t still = 0, std::int64_t lost = 0,
             std::int64_t samples = 6000, Nanoseconds pause = {}) {
     JournalStream stream;
