@@ -118,9 +118,7 @@ void add_samples(ReadingGrade& reading, const model::CorrectedRow& row) {
 /// Returns true if a mistake is named.  Then the residuals, which are those of the survey as entered,
 /// blame good readings too; the search has judged every reading with the mistakes put right.
 bool has_mistakes(const model::SurveyCorrection& result) {
-    return std::ranges::any_of(result.findings, [](const reading::Finding& finding) {
-        return reading::is_mistake(finding) && finding.code != kUnlikeNeighboursCode;
-    });
+    return std::ranges::any_of(result.findings, is_searched_mistake);
 }
 
 /// Scatter of readings of one station after all corrections.

@@ -245,13 +245,6 @@ std::optional<model::SurveyCorrection> network_of(const std::vector<SurveyRow>& 
     return std::nullopt;
 }
 
-/// Returns how many mistakes the search with the model has found.
-std::ptrdiff_t count_mistakes(const std::vector<Finding>& findings) {
-    return std::ranges::count_if(findings, [](const Finding& finding) {
-        return reading::is_mistake(finding) && finding.code != kUnlikeNeighboursCode;
-    });
-}
-
 /// Says that with a drift of a higher degree in each loop at least three mistakes fewer are found, if
 /// so.  Either may be the cause, so s0 of both fits is given.
 /// @param right  the survey with the mistakes put right.
@@ -260,7 +253,7 @@ std::optional<Finding> curved_drift(const model::SurveyCorrection& result,
                                     const SearchedSurvey& survey, const model::AmendedSurvey& right,
                                     const std::vector<Finding>& known) {
     constexpr std::ptrdiff_t kFewestLess = 3;
-    const auto mistakes = count_mistakes(result.findings);
+    const auto mistakes = std::ranges::count_if(result.findings, is_searched_mistake);
     if (result.as<model::NetworkPart>() == nullptr || mistakes < kFewestLess) return std::nullopt;
     const auto s0_of = [](const std::optional<model::SurveyCorrection>& fit) {
         return text::fixed_or(fit ? fit->as<model::NetworkPart>()->s0() : std::nullopt, 2, "-");
@@ -273,8 +266,8 @@ std::optional<Finding> curved_drift(const model::SurveyCorrection& result,
         std::optional<model::SurveyCorrection> curved = network_of(rows, options);
         if (!curved) continue;
         curved->findings = known;
-        const auto found =
-            count_mistakes(find_mistakes(*curved, {survey.rows, survey.sites, nullptr}));
+        const auto found = std::ranges::count_if(
+            find_mistakes(*curved, {survey.rows, survey.sites, nullptr}), is_searched_mistake);
         if (mistakes - found < kFewestLess) continue;
         return Finding{
             .kind = FindingKind::misfit,

@@ -13,6 +13,11 @@ namespace a351::corrector::judgement {
 /// Code of these findings.  They are no mistakes that the fit could feel.
 inline constexpr const char* kUnlikeNeighboursCode = "unlike_neighbours";
 
+/// Returns true for a mistake that the fit can feel: one that the search has found.
+[[nodiscard]] inline bool is_searched_mistake(const reading::Finding& finding) {
+    return reading::is_mistake(finding) && finding.code != kUnlikeNeighboursCode;
+}
+
 /// Returns a finding of the kind other_name for each unknown station whose gravity, without that of
 /// the normal Earth and of a plate of rock of 2670 kg/m3 up to its height, is more than 40 mGal
 /// from the median of its neighbours: a stay with a wrong name, or a wrong height.  The limit is

@@ -39,6 +39,7 @@ struct NetworkPart {
     double chi_square_low = 0.0,
            chi_square_high = 0.0;  ///< Limits of the global test; 0 if dof = 0.
 
+    /// Returns true if the reference of a station is held.
     [[nodiscard]] bool holds(const std::string& site) const {
         return std::ranges::find(held_sites, site) != held_sites.end();
     }

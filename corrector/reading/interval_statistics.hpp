@@ -6,7 +6,7 @@
 /// last sample included.  All functions are pure, so several threads may call them at once.
 ///
 ///     const auto part = std::span(series.values()).subspan(first, last - first + 1);
-///     const double level = mean(part);
+///     const double level = signal::mean_of(part);
 ///     const std::optional<double> error = block_standard_error(part, samples_per_minute);
 
 #include <cstddef>
